@@ -1,0 +1,79 @@
+// locus/status.h
+#include "capi/boundary.hpp"
+
+#include <array>
+#include <cstdio>
+#include <new>
+
+namespace locus {
+namespace {
+
+// Fixed storage: keeping the text of an out-of-memory error must not need memory.
+thread_local std::array<char, 1024> last_error{};
+
+void keep_error(const char *function, const char *text) noexcept {
+    std::snprintf(last_error.data(), last_error.size(), "%s: %s", function, text);
+}
+
+} // namespace
+
+locus_status status_of_current_exception(const char *function) noexcept {
+    try {
+        throw;
+    } catch (const Error &error) {
+        keep_error(function, error.what());
+        return error.status();
+    } catch (const std::bad_alloc &) {
+        keep_error(function, "out of memory");
+        return LOCUS_E_MEMORY;
+    } catch (const std::exception &error) {
+        keep_error(function, error.what());
+        return LOCUS_E_INTERNAL;
+    } catch (...) {
+        keep_error(function, "unknown exception");
+        return LOCUS_E_INTERNAL;
+    }
+}
+
+} // namespace locus
+
+#define LOCUS_TEXT_OF(number) #number
+#define LOCUS_TEXT(number) LOCUS_TEXT_OF(number)
+
+uint32_t locus_version(void) noexcept { return LOCUS_VERSION; }
+
+const char *locus_version_text(void) noexcept {
+    return LOCUS_TEXT(LOCUS_VERSION_MAJOR) "." LOCUS_TEXT(LOCUS_VERSION_MINOR) "." LOCUS_TEXT(LOCUS_VERSION_PATCH)
+#ifdef LOCUS_SIMD_SCALAR_ONLY
+        " simd=scalar";
+#else
+        " simd=highway";
+#endif
+}
+
+const char *locus_status_name(locus_status status) noexcept {
+    switch (status) {
+#define LOCUS_NAME(constant)                                                                                           \
+    case constant:                                                                                                     \
+        return #constant
+        LOCUS_NAME(LOCUS_OK);
+        LOCUS_NAME(LOCUS_E_ARGUMENT);
+        LOCUS_NAME(LOCUS_E_RANGE);
+        LOCUS_NAME(LOCUS_E_CAPACITY);
+        LOCUS_NAME(LOCUS_E_STATE);
+        LOCUS_NAME(LOCUS_E_UNSUPPORTED);
+        LOCUS_NAME(LOCUS_E_STOPPED);
+        LOCUS_NAME(LOCUS_E_BUSY);
+        LOCUS_NAME(LOCUS_E_STALE);
+        LOCUS_NAME(LOCUS_E_MEMORY);
+        LOCUS_NAME(LOCUS_E_IO);
+        LOCUS_NAME(LOCUS_E_FORMAT);
+        LOCUS_NAME(LOCUS_E_DEVICE);
+        LOCUS_NAME(LOCUS_E_INTERNAL);
+#undef LOCUS_NAME
+    default:
+        return "LOCUS_E_UNKNOWN";
+    }
+}
+
+const char *locus_last_error(void) noexcept { return locus::last_error.data(); }
