@@ -1,4 +1,4 @@
-/* locus/locus.h - everything of Locus but the file formats (locus/io.h).
+/* locus/locus.h - everything of Locus but the file formats (locus/volume.h, locus/records.h).
  *
  * Locus keeps data that changes all the time close in memory. It holds two engines:
  * - the voxel graph (locus/graph.h, locus/diagram.h): compliance distances and Voronoi diagrams on 3-D material maps;

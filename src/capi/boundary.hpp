@@ -1,29 +1,19 @@
-// The exception barrier: the one place where exceptions become statuses and error texts.
+// The boundary of liblocus: every exported call that can fail runs its body in here.
 #pragma once
 
-#include "core/error.hpp"
+#include "core/barrier.hpp"
 
-#include <concepts>
-#include <type_traits>
+#include <utility>
 
 namespace locus {
 
-// The status of the exception that is being handled; keeps its text, led by the function's name, for locus_last_error().
-locus_status status_of_current_exception(const char *function) noexcept;
+// The calling thread's text for locus_last_error().
+ErrorText &last_error_text() noexcept;
 
-// Run `body`, which returns nothing or a status; no exception leaves. Every exported call that can fail is one of these.
+// Run `body`, which returns nothing or a status, and turn an exception into a status and an error text.
 template <std::invocable Body>
 locus_status boundary(const char *function, Body &&body) noexcept {
-    try {
-        if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
-            body();
-            return LOCUS_OK;
-        } else {
-            return body();
-        }
-    } catch (...) {
-        return status_of_current_exception(function);
-    }
+    return barrier(function, last_error_text, std::forward<Body>(body));
 }
 
 } // namespace locus

@@ -1,38 +1,11 @@
 // locus/status.h
 #include "capi/boundary.hpp"
 
-#include <array>
-#include <cstdio>
-#include <new>
-
 namespace locus {
-namespace {
 
-// Fixed storage: keeping the text of an out-of-memory error must not need memory.
-thread_local std::array<char, 1024> last_error{};
-
-void keep_error(const char *function, const char *text) noexcept {
-    std::snprintf(last_error.data(), last_error.size(), "%s: %s", function, text);
-}
-
-} // namespace
-
-locus_status status_of_current_exception(const char *function) noexcept {
-    try {
-        throw;
-    } catch (const Error &error) {
-        keep_error(function, error.what());
-        return error.status();
-    } catch (const std::bad_alloc &) {
-        keep_error(function, "out of memory");
-        return LOCUS_E_MEMORY;
-    } catch (const std::exception &error) {
-        keep_error(function, error.what());
-        return LOCUS_E_INTERNAL;
-    } catch (...) {
-        keep_error(function, "unknown exception");
-        return LOCUS_E_INTERNAL;
-    }
+ErrorText &last_error_text() noexcept {
+    thread_local ErrorText text{};
+    return text;
 }
 
 } // namespace locus
@@ -76,4 +49,4 @@ const char *locus_status_name(locus_status status) noexcept {
     }
 }
 
-const char *locus_last_error(void) noexcept { return locus::last_error.data(); }
+const char *locus_last_error(void) noexcept { return locus::last_error_text().data(); }

@@ -1,0 +1,19 @@
+// The boundary of liblocus_io: every exported call that can fail runs its body in here.
+#pragma once
+
+#include "core/barrier.hpp"
+
+#include <utility>
+
+namespace locus::io {
+
+// The calling thread's text for locus_io_last_error().
+ErrorText &last_error_text() noexcept;
+
+// Run `body`, which returns nothing or a status, and turn an exception into a status and an error text.
+template <std::invocable Body>
+locus_status boundary(const char *function, Body &&body) noexcept {
+    return barrier(function, last_error_text, std::forward<Body>(body));
+}
+
+} // namespace locus::io
