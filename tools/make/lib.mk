@@ -1,5 +1,5 @@
 # The main library, shared and static.
-LIB_SOURCES := $(wildcard src/core/*.cpp src/capi/*.cpp src/graph/*.cpp src/graph/*/*.cpp src/pmq/*.cpp src/pmq/layout/*.cpp)
+LIB_SOURCES := $(wildcard src/core/*.cpp src/capi/*.cpp src/graph/*.cpp src/graph/*/*.cpp src/pmq/*.cpp src/pmq/*/*.cpp)
 LIB_OBJECTS := $(LIB_SOURCES:%=$(OUT)/%.o)
 LIB_SONAME := liblocus.so.$(SOVERSION)
 LIB_SHARED := $(OUT)/liblocus.so.$(VERSION)

@@ -1,0 +1,52 @@
+// Where a query looks: a set of places that can be compared with quadrants of the map.
+#pragma once
+
+#include "core/zcurve.hpp"
+
+#include <locus/pmq.h>
+
+#include <array>
+#include <cstdint>
+
+namespace locus::pmq {
+
+enum class Relation { outside, edge, inside };
+
+class Region {
+public:
+    virtual ~Region() = default;
+    // How the places whose key lies in the quadrant relate to the region. `edge` may be said of any quadrant: its
+    // records are then tested one by one. Latitudes beyond the Mercator square have the keys of its edge rows.
+    virtual Relation relate(const Quadrant &quadrant) const noexcept = 0;
+    // The same for one key.
+    virtual Relation relate(uint64_t key) const noexcept { return relate(Quadrant{key_levels, key}); }
+    virtual bool contains(double latitude, double longitude) const noexcept = 0;
+};
+
+// A box in degrees, borders included, across the antimeridian when west > east. Longitudes 180 and -180 are one
+// meridian.
+class BoxRegion final : public Region {
+public:
+    explicit BoxRegion(const locus_box &box);
+    Relation relate(const Quadrant &quadrant) const noexcept override;
+    Relation relate(uint64_t key) const noexcept override;
+    bool contains(double latitude, double longitude) const noexcept override;
+
+private:
+    // Columns or rows of the map, bits spread as in keys (x at the even bits, y shifted down to them): outside
+    // [outer_first, outer_last] there is no record of the box, inside [inner_first, inner_last] there are no others.
+    struct Cells {
+        uint64_t outer_first, outer_last, inner_first, inner_last;
+        static Cells between(int64_t first, int64_t last, bool open_first, bool open_last) noexcept;
+        Relation relate(uint64_t first, uint64_t last) const noexcept;
+    };
+    Relation relate(uint64_t first_key, uint64_t last_key) const noexcept;
+    void add_columns(double west, double east) noexcept;
+
+    locus_box box_;
+    Cells rows_;
+    std::array<Cells, 2> columns_; // the box's parts on both sides of the antimeridian
+    unsigned parts_ = 0;
+};
+
+} // namespace locus::pmq

@@ -1,0 +1,61 @@
+// The inner loop of every query that looks at records: which entries of a block a selection accepts.
+#pragma once
+
+#include "pmq/layout/layout.hpp"
+#include "pmq/query/ranges.hpp"
+
+namespace locus::pmq {
+
+// What a record has to be asked, given where it was found. Cheap questions first, the caller's filter last.
+class Acceptance {
+public:
+    Acceptance(const View &view, const Selection &selection, const RangeAt &range)
+        : format_(view.format()), selection_(selection), keys_(range.keys),
+          region_(range.inside ? nullptr : selection.region), late_(selection.times.to < view.moment().now) {}
+
+    bool operator()(const Block &block, size_t entry) const noexcept {
+        const uint64_t key = block.key(entry);
+        if (!block.within && !keys_.contains(key))
+            return false;
+        const Bytes record = block.record(entry);
+        if ((late_ || selection_.times.from > block.oldest) && !selection_.times.contains(format_.time(record)))
+            return false;
+        return place_accepted(key, record) &&
+               (!selection_.filter || selection_.filter(record, selection_.filter_user) != 0);
+    }
+    // Every entry of the block is accepted.
+    bool all_of(const Block &block) const noexcept {
+        return block.within && !region_ && !late_ && !selection_.filter && selection_.times.from <= block.oldest;
+    }
+
+private:
+    bool place_accepted(uint64_t key, Bytes record) const noexcept {
+        if (!region_)
+            return true;
+        const Relation relation = region_->relate(key);
+        return relation == Relation::inside ||
+               (relation == Relation::edge && region_->contains(format_.latitude(record), format_.longitude(record)));
+    }
+
+    const RecordFormat &format_;
+    const Selection &selection_;
+    KeyRange keys_;
+    const Region *region_; // to be asked
+    bool late_;            // records may lie behind the end of the time window
+};
+
+// Call `use(block, entry)` for every accepted entry of a range until it returns false; false if it did.
+template <typename Use>
+bool scan_accepted(const View &view, const Selection &selection, const RangeAt &range, Order order, Use &&use) {
+    const Acceptance accepted(view, selection, range);
+    return view.scan(range.place, range.keys, order, [&](const Block &block) {
+        for (size_t i = 0; i < block.count; ++i) {
+            const size_t entry = block.entry(i);
+            if (accepted(block, entry) && !use(block, entry))
+                return false;
+        }
+        return true;
+    });
+}
+
+} // namespace locus::pmq
