@@ -1,5 +1,6 @@
 # Locus. `make help` lists the targets; tools/make/ holds the rules, one file per job.
 .DEFAULT_GOAL := lib
+.DELETE_ON_ERROR:
 MAKEFLAGS += --no-builtin-rules
 ifeq ($(filter -j%,$(MAKEFLAGS)),)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
@@ -26,5 +27,5 @@ clean: ## remove everything that was built
 format: ## format the sources with clang-format
 	git ls-files '*.c' '*.h' '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs clang-format -i
 
-# Header dependencies of everything compiled so far.
--include $(shell test -d build && find build -name '*.d' 2>/dev/null)
+# Header dependencies of what this set of flags has compiled so far.
+-include $(shell test -d $(OUT) && find $(OUT) -name '*.d')

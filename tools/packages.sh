@@ -4,6 +4,10 @@
 set -eu
 list=$(dirname "$0")/packages.txt
 missing=""
+# One at a time: a parallel make may ask for several jobs at once.
+if [ -z "${LOCUS_PACKAGES_LOCKED:-}" ] && command -v flock >/dev/null 2>&1; then
+    LOCUS_PACKAGES_LOCKED=1 exec flock "$list" "$0" "$@"
+fi
 for job in "$@"; do
     grep -q "^$job " "$list" || { echo "packages: no job '$job' in $list" >&2; exit 2; }
 done
@@ -19,6 +23,7 @@ echo "Packages needed for $* that are not installed:"
 for package in $missing; do tell "$package"; done
 if ! command -v apt-get >/dev/null 2>&1; then
     echo "This is not a Debian system: please install what these Debian packages hold, then run make again with SKIP_PACKAGES=1." >&2
+    echo "(The library alone builds with a C++20 compiler and make: make lib SIMD=scalar)" >&2
     exit 1
 fi
 root=""

@@ -1,13 +1,13 @@
 # Compilers, flags and folders. Objects live in a folder per set of flags, so switching flags never mixes objects.
-CXX ?= g++
-CC ?= gcc
 ifeq ($(origin CXX),default)
 CXX := g++
 endif
 ifeq ($(origin CC),default)
-CC := gcc
+CC := $(if $(findstring clang,$(CXX)),$(subst clang++,clang,$(CXX)),gcc)
 endif
-AR ?= ar
+ifeq ($(origin AR),default)
+AR := ar
+endif
 SIMD ?= highway
 MODE ?= release
 SANITIZE ?=
@@ -19,15 +19,20 @@ SOVERSION := $(firstword $(subst ., ,$(VERSION)))
 
 WARN := -Wall -Wextra -Wpedantic -Wconversion -Werror
 CPPFLAGS_ALL := -Iinclude -Isrc $(CPPFLAGS)
-CXXFLAGS_ALL := -std=c++20 -g -fPIC -pthread -fvisibility=hidden -fvisibility-inlines-hidden $(WARN) $(CXXFLAGS)
-CFLAGS_ALL := -std=c11 -g -pthread $(WARN) $(CFLAGS)
+# -ffile-prefix-map: no path of the build machine in what is installed. Unique symbols (a GNU extension) would pin the library
+# in memory after dlclose.
+CXXFLAGS_ALL := -std=c++20 -g -fPIC -pthread -fvisibility=hidden -fvisibility-inlines-hidden -ffile-prefix-map=$(CURDIR)/= \
+    $(if $(findstring clang,$(CXX)),,-fno-gnu-unique) $(WARN) $(CXXFLAGS)
+CFLAGS_ALL := -std=c11 -g -pthread -ffile-prefix-map=$(CURDIR)/= $(WARN) $(CFLAGS)
 LDFLAGS_ALL := -pthread $(LDFLAGS)
 ifeq ($(MODE),debug)
 CXXFLAGS_ALL += -O0
 CFLAGS_ALL += -O0
+else ifeq ($(MODE),release)
+CXXFLAGS_ALL += $(if $(SANITIZE),-O1,-O3)
+CFLAGS_ALL += $(if $(SANITIZE),-O1,-O2)
 else
-CXXFLAGS_ALL += -O3
-CFLAGS_ALL += -O2
+$(error MODE=$(MODE): only 'release' (the default) and 'debug' are known)
 endif
 ifeq ($(SIMD),scalar)
 CPPFLAGS_ALL += -DLOCUS_SIMD_SCALAR_ONLY
@@ -38,29 +43,33 @@ ifeq ($(SANITIZE),address)
 SANITIZER := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 else ifeq ($(SANITIZE),thread)
 SANITIZER := -fsanitize=thread -fno-omit-frame-pointer
+else ifeq ($(SANITIZE),fuzzer)
+SANITIZER := -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 else ifneq ($(SANITIZE),)
-$(error SANITIZE=$(SANITIZE): only 'address' and 'thread' are known)
+$(error SANITIZE=$(SANITIZE): only 'address', 'thread' and 'fuzzer' are known)
 endif
 CXXFLAGS_ALL += $(SANITIZER)
 CFLAGS_ALL += $(SANITIZER)
 LDFLAGS_ALL += $(SANITIZER)
 
-# build/<flags>/ holds objects, libraries and programs of one set of flags; build/lib and build/bin point at the latest.
+# build/<flags>/ holds the objects, libraries and programs of one set of flags; build/latest points at that of the last `make lib`.
 FLAGS_ID := $(shell printf '%s' '$(CXX) $(CC) $(CPPFLAGS_ALL) $(CXXFLAGS_ALL) $(CFLAGS_ALL) $(LDFLAGS_ALL)' | cksum | cut -d' ' -f1)
 OUT := build/$(notdir $(CXX))-$(MODE)$(addprefix -,$(SANITIZE))$(if $(filter scalar,$(SIMD)),-scalar)-$(FLAGS_ID)
 
-# $(call packages,JOB...) as a recipe line: make sure of the packages of these jobs.
-packages = @$(if $(SKIP_PACKAGES),:,tools/packages.sh $(1))
-# A phony prerequisite per job: packages-build, packages-test, ...
+# Objects wait for `packages-JOB`, which looks once per run of make that the packages of a job are there (tools/packages.txt).
+# $(call needs,JOB...) is the order-only prerequisite for that. SIMD=scalar needs no package for the library.
+needs = $(if $(SKIP_PACKAGES),,$(1:%=packages-%))
+BUILD_PACKAGES := $(if $(filter scalar,$(SIMD)),,$(call needs,build))
 packages-%:
-	$(call packages,$*)
+	@tools/packages.sh $*
 
-$(OUT)/%.cpp.o: %.cpp | $(if $(SKIP_PACKAGES),,packages-build)
+# Flags of one object: set EXTRA_CPPFLAGS or EXTRA_CXXFLAGS for the object itself; for a program they would reach the library's objects.
+$(OUT)/%.cpp.o: %.cpp | $(BUILD_PACKAGES)
 	@mkdir -p $(@D)
 	@echo "  CXX $<"
 	@$(CXX) $(CPPFLAGS_ALL) $(EXTRA_CPPFLAGS) $(CXXFLAGS_ALL) $(EXTRA_CXXFLAGS) -MMD -MP -c $< -o $@
 
-$(OUT)/%.c.o: %.c | $(if $(SKIP_PACKAGES),,packages-build)
+$(OUT)/%.c.o: %.c | $(BUILD_PACKAGES)
 	@mkdir -p $(@D)
-	@echo "  CC $<"
+	@echo "  CC  $<"
 	@$(CC) $(CPPFLAGS_ALL) $(EXTRA_CPPFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@

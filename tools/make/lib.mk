@@ -1,24 +1,51 @@
-# The main library, shared and static.
+# The libraries, shared and static: liblocus here, others (liblocus_io) in files of their own by the same `library`.
+
+# Undefined symbols are errors, except with clang's sanitizers, whose run-time is in the program only.
+COMMA := ,
+LINK_STRICT := $(if $(and $(SANITIZE),$(findstring clang,$(CXX))),,-Wl$(COMMA)-z$(COMMA)defs)
+
+# $(eval $(call library,NAME,SOURCES,HEADERS,LIBS,JOBS)): lib<NAME>.so, which exports what src/lib<NAME>.map lists, and lib<NAME>.a.
+# HEADERS: the public headers that declare its functions; LIBS: what the linker needs; JOBS: of tools/packages.txt.
+LIBRARIES :=
+define library
+LIBRARIES += $(1)
+HEADERS_$(1) := $(3)
+LIBS_$(1) := $(4)
+JOBS_$(1) := $(5)
+SONAME_$(1) := lib$(1).so.$(SOVERSION)
+SHARED_$(1) := $(OUT)/lib$(1).so.$(VERSION)
+STATIC_$(1) := $(OUT)/lib$(1).a
+OBJECTS_$(1) := $(2:%=$(OUT)/%.o)
+$(2:%=$(OUT)/%.o): | $(call needs,$(5))
+
+# The links that the linker (lib<NAME>.so) and the loader (the soname) look for stand beside the library.
+$(OUT)/lib$(1).so.$(VERSION): $(2:%=$(OUT)/%.o) src/lib$(1).map $(OUT)/lib$(1).sources
+	@echo "  LD  $$@"
+	@$$(CXX) -shared -Wl,-soname,lib$(1).so.$(SOVERSION) -Wl,--version-script=src/lib$(1).map $(LINK_STRICT) \
+	    -Wl,-z,relro,-z,now -Wl,--as-needed $$(filter %.o,$$^) $(4) $$(LDFLAGS_ALL) -o $$@
+	@ln -sfn $$(@F) $(OUT)/lib$(1).so.$(SOVERSION)
+	@ln -sfn lib$(1).so.$(SOVERSION) $(OUT)/lib$(1).so
+
+$(OUT)/lib$(1).a: $(2:%=$(OUT)/%.o) $(OUT)/lib$(1).sources
+	@echo "  AR  $$@"
+	@rm -f $$@
+	@$$(AR) rcs $$@ $$(filter %.o,$$^)
+
+# Changes when a source file comes or goes, so that the libraries are linked anew.
+$(OUT)/lib$(1).sources: FORCE
+	@mkdir -p $$(@D)
+	@echo '$(2)' | cmp -s - $$@ || echo '$(2)' >$$@
+endef
+.PHONY: FORCE
+FORCE:
+
+IO_HEADERS := $(wildcard $(addprefix include/locus/,io.h volume.h records.h))
 LIB_SOURCES := $(wildcard src/core/*.cpp src/capi/*.cpp src/graph/*.cpp src/graph/*/*.cpp src/pmq/*.cpp src/pmq/*/*.cpp)
-LIB_OBJECTS := $(LIB_SOURCES:%=$(OUT)/%.o)
-LIB_SONAME := liblocus.so.$(SOVERSION)
-LIB_SHARED := $(OUT)/liblocus.so.$(VERSION)
-LIB_STATIC := $(OUT)/liblocus.a
+$(eval $(call library,locus,$(LIB_SOURCES),$(filter-out $(IO_HEADERS),$(wildcard include/locus/*.h)),,))
+LIB_SHARED := $(SHARED_locus)
+LIB_STATIC := $(STATIC_locus)
 
 .PHONY: lib
 lib: $(LIB_SHARED) $(LIB_STATIC) ## build liblocus.so and liblocus.a
 	@ln -sfn $(notdir $(OUT)) build/latest
 	@echo "built $(LIB_SHARED)"
-
-# The links that the linker (liblocus.so) and the loader (the soname) look for stand beside the library.
-$(LIB_SHARED): $(LIB_OBJECTS) src/liblocus.map
-	@echo "  LD  $@"
-	@$(CXX) -shared -Wl,-soname,$(LIB_SONAME) -Wl,--version-script=src/liblocus.map -Wl,-z,defs -Wl,-z,relro,-z,now \
-	    $(LIB_OBJECTS) $(LDFLAGS_ALL) -o $@
-	@ln -sfn $(notdir $@) $(OUT)/$(LIB_SONAME)
-	@ln -sfn $(LIB_SONAME) $(OUT)/liblocus.so
-
-$(LIB_STATIC): $(LIB_OBJECTS)
-	@echo "  AR  $@"
-	@rm -f $@
-	@$(AR) rcs $@ $^

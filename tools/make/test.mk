@@ -1,17 +1,76 @@
-# The quick tier of tests: everything `make test` runs. One GoogleTest program per folder of tests/unit.
+# The quick tier of tests: everything `make test` runs. Each stage logs into $(OUT)/log and prints one line (tools/stage.sh).
+STAGE = @tools/stage.sh $(OUT)/log
+
+.PHONY: test unit api headers exports abi abi-baseline memcheck install-test
+test: unit api headers exports abi memcheck install-test ## the quick tests: units, C programs, headers, ABI, Valgrind, installation
+	@echo "make test: all passed"
+
+# Unit tests: one GoogleTest program per folder of tests/unit, linked with the static libraries. UNIT_LIBS_<area>: more it needs.
 UNIT_AREAS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/unit/*/*.cpp)))))
-UNIT_PROGRAMS := $(UNIT_AREAS:%=$(OUT)/tests/unit_%)
-$(UNIT_PROGRAMS): EXTRA_CPPFLAGS += -I.
+UNIT_OBJECTS := $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/*/*.cpp))
+$(UNIT_OBJECTS): EXTRA_CPPFLAGS += -I.
+$(UNIT_OBJECTS): | $(call needs,test)
 
 define unit_program
-$(OUT)/tests/unit_$(1): $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/$(1)/*.cpp)) $(LIB_STATIC)
+$(OUT)/tests/unit_$(1): $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/$(1)/*.cpp)) $(foreach name,$(LIBRARIES),$(STATIC_$(name)))
 	@echo "  LD  $$@"
-	@$$(CXX) $$^ $$(UNIT_LIBS_$(1)) -lgtest_main -lgtest $$(LDFLAGS_ALL) -o $$@
+	@$$(CXX) $$(filter %.o,$$^) $$(UNIT_LIBS_$(1)) $$(addprefix -l:lib,$$(addsuffix .a,$$(LIBRARIES))) -L$(OUT) $$(foreach name,$$(LIBRARIES),$$(LIBS_$$(name))) \
+	    -lgtest_main -lgtest $$(LDFLAGS_ALL) -o $$@
 .PHONY: unit-$(1)
 unit-$(1): $(OUT)/tests/unit_$(1)
-	$$< --gtest_brief=1
+	$$(STAGE) unit-$(1) $$< --gtest_brief=1
 endef
 $(foreach area,$(UNIT_AREAS),$(eval $(call unit_program,$(area))))
+unit: $(addprefix unit-,$(UNIT_AREAS)) ## the unit tests only (unit-graph, unit-pmq, ... for one area)
 
-.PHONY: unit
-unit: $(addprefix unit-,$(UNIT_AREAS)) ## run the unit tests only (unit-graph, unit-pmq, ... for one area)
+# API tests: C99 programs that see the public headers and the shared libraries only.
+API_PROGRAMS := $(patsubst tests/api/%.c,$(OUT)/tests/api/%,$(wildcard tests/api/*.c))
+$(OUT)/tests/api/%: tests/api/%.c $(foreach name,$(LIBRARIES),$(SHARED_$(name))) $(wildcard tests/api/*.h) | $(call needs,test)
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	@$(CC) -Iinclude $(CPPFLAGS) $(CFLAGS_ALL) -std=c99 -Wstrict-prototypes -MMD -MP -MF $@.d $< -o $@ -L$(OUT) -Wl,--as-needed $(LIBRARIES:%=-l%) \
+	    -Wl,-rpath,'$$ORIGIN/../..' $(LDFLAGS_ALL) -lm
+API_TESTS := $(API_PROGRAMS:$(OUT)/tests/api/%=api-%)
+.PHONY: $(API_TESTS)
+$(API_TESTS): api-%: $(OUT)/tests/api/%
+	$(STAGE) $@ $<
+api: $(API_TESTS) api-coverage ## the C programs against the shared library
+.PHONY: api-coverage
+api-coverage:
+	$(STAGE) $@ tests/api/coverage.sh
+
+headers: | $(call needs,test) ## every public header alone, under each standard and both compilers
+	$(STAGE) $@ tests/compile/headers.sh
+
+# The export lists, and the ABI against the committed baseline. The baseline is of g++ on this kind of machine.
+EXPORTS := $(LIBRARIES:%=exports-%)
+.PHONY: $(EXPORTS)
+$(EXPORTS): exports-%: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test)
+	$(STAGE) $@ env LOCUS_HEADERS_AHEAD=1 LOCUS_MAY_NEED='$(MAY_NEED_$*)' tests/abi/exports.sh $(SHARED_$*) src/lib$*.map $(HEADERS_$*)
+exports: $(EXPORTS) ## what library, version script and headers export is the same
+
+ABIS := $(LIBRARIES:%=abi-%)
+.PHONY: $(ABIS)
+$(ABIS): abi-%: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test)
+	$(STAGE) $@ tests/abi/compare.sh $(SHARED_$*)
+abi: $(ABIS) ## compare the ABI with tests/abi/*.abi
+abi-baseline: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test) ## renew tests/abi/*.abi after a meant change
+	@for library in $^; do tests/abi/compare.sh --renew $$library || exit 1; done
+
+# Valgrind: no error and no leak in the API tests, in the unit tests named here (UNIT_MEMCHECK_<area>: a GoogleTest filter for
+# those whose whole area would take minutes), and in MEMCHECK_RUNS, targets that other files add with $(MEMCHECK) in the recipe.
+# In the API tests what is still reachable at the end counts as a leak; not after dlclose, which leaves libstdc++ in memory.
+MEMCHECK := valgrind --quiet --leak-check=full --error-exitcode=99 --errors-for-leak-kinds=definite,indirect,possible
+MEMCHECK_REACHABLE := --errors-for-leak-kinds=all --show-leak-kinds=all
+MEMCHECK_API := $(API_TESTS:%=memcheck-%)
+MEMCHECK_UNIT := $(UNIT_AREAS:%=memcheck-unit-%)
+.PHONY: $(MEMCHECK_API) $(MEMCHECK_UNIT)
+$(MEMCHECK_API): memcheck-api-%: $(OUT)/tests/api/%
+	$(STAGE) $@ $(MEMCHECK) $(if $(filter dlopen,$*),,$(MEMCHECK_REACHABLE)) $< $(if $(filter dlopen,$*),20)
+$(MEMCHECK_UNIT): memcheck-unit-%: $(OUT)/tests/unit_%
+	$(STAGE) $@ $(MEMCHECK) $< --gtest_brief=1 --gtest_filter='$(or $(UNIT_MEMCHECK_$*),*)'
+memcheck: $(MEMCHECK_API) $(MEMCHECK_UNIT) $(MEMCHECK_RUNS) ## Valgrind over the API tests, the short unit tests, a small demo
+
+# Installation: an outside C and C++ program, by pkg-config and by CMake, shared and static; then uninstall leaves nothing.
+install-test: $(foreach name,$(LIBRARIES),$(SHARED_$(name)) $(STATIC_$(name))) | $(call needs,test) ## try make install and uninstall
+	$(STAGE) $@ env MAKE='$(MAKE)' tests/install/run.sh $(OUT)/install-test $(LIBRARIES)

@@ -1,0 +1,23 @@
+#!/bin/bash
+# Every public header, alone and twice, under each standard of C and C++ it promises, with gcc and clang, without a warning.
+set -eu
+warn=(-pedantic -Wall -Wextra -Werror -fsyntax-only -Iinclude)
+failed=0
+try() { # compiler language standard header
+    printf '#include <%s>\n#include <%s>\n' "$4" "$4" | "$1" "${warn[@]}" "-std=$3" -x "$2" - ||
+        { echo "FAILED: $4 alone with $1 -std=$3"; failed=1; }
+}
+for path in include/locus/*; do
+    header=${path#include/}
+    for standard in c++17 c++20; do
+        try g++ c++ $standard "$header"
+        try clang++ c++ $standard "$header"
+    done
+    case $path in *.hpp) continue ;; esac
+    for standard in c99 c11 c17; do
+        try gcc c $standard "$header"
+        try clang c $standard "$header"
+    done
+done
+[ $failed = 0 ] && echo "headers: $(ls include/locus | wc -l), each alone under every standard"
+exit $failed
