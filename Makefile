@@ -2,8 +2,12 @@
 .DEFAULT_GOAL := lib
 .DELETE_ON_ERROR:
 MAKEFLAGS += --no-builtin-rules
-ifeq ($(filter -j%,$(MAKEFLAGS)),)
+# As many jobs as cores, unless the command line says how many. While make reads this file it does not show its own -j in MAKEFLAGS
+# yet, so ask the kernel; a make within make takes part in the jobs of the outer one.
+ifeq ($(MAKELEVEL),0)
+ifeq ($(filter -j% --jobs%,$(shell tr '\0' '\n' <"/proc/$$PPID/cmdline" 2>/dev/null)),)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
+endif
 endif
 
 include tools/make/config.mk

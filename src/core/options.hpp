@@ -10,8 +10,8 @@
 
 namespace locus {
 
-// Fill the first `size` bytes of a caller's struct with `defaults`. `first_size` is the struct's size in the release that
-// introduced it: no client can have a smaller one.
+// Fill the first `size` bytes of a caller's struct with `defaults`. `first_size` is the struct's size in the release
+// that introduced it: no client can have a smaller one.
 template <typename Options>
 void init_options(Options *options, size_t size, Options defaults, size_t first_size) {
     need(options, "options");
@@ -26,7 +26,8 @@ void init_options(Options *options, size_t size, Options defaults, size_t first_
 // newer header, passes only if what this library does not know is zero.
 template <typename Options>
 Options read_options(const Options *options, const Options &defaults, size_t first_size) {
-    if (options == nullptr) return defaults;
+    if (options == nullptr)
+        return defaults;
     const uint64_t size = options->struct_size;
     require(size >= first_size, "struct_size is ", size, ", smaller than the first release's ", first_size,
             " (was the struct filled by its _init function?)");

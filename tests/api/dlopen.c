@@ -23,8 +23,10 @@
 static long resident_pages(void) {
     long total = 0, resident = 0;
     FILE *const file = fopen("/proc/self/statm", "r");
-    if (file == NULL) return 0;
-    if (fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
+    if (file == NULL)
+        return 0;
+    if (fscanf(file, "%ld %ld", &total, &resident) != 2)
+        resident = 0;
     fclose(file);
     return resident;
 }
@@ -33,19 +35,25 @@ static long resident_pages(void) {
 static const char *one_life(void) {
     uint32_t (*version)(void) = NULL;
     void *const library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
-    if (library == NULL) return dlerror();
+    if (library == NULL)
+        return dlerror();
     FUNCTION(library, version, "locus_version");
-    if (version == NULL) return "locus_version is missing";
-    if (version() != LOCUS_VERSION) return "locus_version is another version";
-    if (dlclose(library) != 0) return dlerror();
-    if (dlopen(LIBRARY, RTLD_NOW | RTLD_NOLOAD) != NULL) return "dlclose left the library in memory";
+    if (version == NULL)
+        return "locus_version is missing";
+    if (version() != LOCUS_VERSION)
+        return "locus_version is another version";
+    if (dlclose(library) != 0)
+        return dlerror();
+    if (dlopen(LIBRARY, RTLD_NOW | RTLD_NOLOAD) != NULL)
+        return "dlclose left the library in memory";
     return NULL;
 }
 
 static const char *lives(int count) {
     const char *wrong = NULL;
     int i;
-    for (i = 0; i < count && wrong == NULL; i++) wrong = one_life();
+    for (i = 0; i < count && wrong == NULL; i++)
+        wrong = one_life();
     return wrong;
 }
 
@@ -53,7 +61,8 @@ int main(int arguments, char **argument) {
     const int loads = arguments > 1 ? atoi(argument[1]) : 200;
     const char *wrong = lives(20);
     const long before = resident_pages();
-    if (wrong == NULL) wrong = lives(loads);
+    if (wrong == NULL)
+        wrong = lives(loads);
     if (wrong != NULL) {
         printf("%s\n", wrong);
         return 1;

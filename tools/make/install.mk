@@ -39,3 +39,11 @@ uninstall: ## remove what install put there
 	@for folder in '$(INCLUDEDIR)/locus' '$(CMAKEDIR)'; do \
 	    if [ -d "$(DESTDIR)$$folder" ]; then rmdir --ignore-fail-on-non-empty "$(DESTDIR)$$folder"; fi; done
 	@echo "removed Locus $(VERSION) from $(DESTDIR)$(PREFIX)"
+
+# One package of run-time and development files: build/liblocus_<version>_<architecture>.deb.
+DEB = build/liblocus_$(VERSION)_$(shell dpkg --print-architecture).deb
+deb: $(foreach name,$(LIBRARIES),$(SHARED_$(name)) $(STATIC_$(name))) | $(call needs,check) ## build a Debian package under build/
+	@rm -rf $(OUT)/deb
+	@+$(MAKE) --no-print-directory install DESTDIR=$(OUT)/deb PREFIX=/usr LIBDIR=/usr/lib/$(shell $(CXX) -print-multiarch) >/dev/null
+	@tools/packaging/deb.sh $(OUT)/deb $(DEB) $(VERSION)
+	@echo "built $(DEB)"

@@ -1,11 +1,14 @@
 # The quick tier of tests: everything `make test` runs. Each stage logs into $(OUT)/log and prints one line (tools/stage.sh).
 STAGE = @tools/stage.sh $(OUT)/log
+# In front of a stage's name where the flags are not the usual ones: clang++-address.
+FLAVOUR := $(addsuffix .,$(filter-out g++,$(subst -release,,$(OUT:build/%-$(FLAGS_ID)=%))))
 
 .PHONY: test unit api headers exports abi abi-baseline memcheck install-test
 test: unit api headers exports abi memcheck install-test ## the quick tests: units, C programs, headers, ABI, Valgrind, installation
 	@echo "make test: all passed"
 
 # Unit tests: one GoogleTest program per folder of tests/unit, linked with the static libraries. UNIT_LIBS_<area>: more it needs.
+STATIC_LINK = $(foreach name,$(LIBRARIES),$(STATIC_$(name)) $(LIBS_$(name)))
 UNIT_AREAS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/unit/*/*.cpp)))))
 UNIT_OBJECTS := $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/*/*.cpp))
 $(UNIT_OBJECTS): EXTRA_CPPFLAGS += -I.
@@ -14,11 +17,10 @@ $(UNIT_OBJECTS): | $(call needs,test)
 define unit_program
 $(OUT)/tests/unit_$(1): $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/$(1)/*.cpp)) $(foreach name,$(LIBRARIES),$(STATIC_$(name)))
 	@echo "  LD  $$@"
-	@$$(CXX) $$(filter %.o,$$^) $$(UNIT_LIBS_$(1)) $$(addprefix -l:lib,$$(addsuffix .a,$$(LIBRARIES))) -L$(OUT) $$(foreach name,$$(LIBRARIES),$$(LIBS_$$(name))) \
-	    -lgtest_main -lgtest $$(LDFLAGS_ALL) -o $$@
+	@$$(CXX) $$(filter %.o,$$^) $$(UNIT_LIBS_$(1)) $$(STATIC_LINK) -lgtest_main -lgtest $$(LDFLAGS_ALL) -o $$@
 .PHONY: unit-$(1)
 unit-$(1): $(OUT)/tests/unit_$(1)
-	$$(STAGE) unit-$(1) $$< --gtest_brief=1
+	$$(STAGE) $(FLAVOUR)unit-$(1) $$< --gtest_brief=1
 endef
 $(foreach area,$(UNIT_AREAS),$(eval $(call unit_program,$(area))))
 unit: $(addprefix unit-,$(UNIT_AREAS)) ## the unit tests only (unit-graph, unit-pmq, ... for one area)
@@ -30,29 +32,30 @@ $(OUT)/tests/api/%: tests/api/%.c $(foreach name,$(LIBRARIES),$(SHARED_$(name)))
 	@echo "  CC  $<"
 	@$(CC) -Iinclude $(CPPFLAGS) $(CFLAGS_ALL) -std=c99 -Wstrict-prototypes -MMD -MP -MF $@.d $< -o $@ -L$(OUT) -Wl,--as-needed $(LIBRARIES:%=-l%) \
 	    -Wl,-rpath,'$$ORIGIN/../..' $(LDFLAGS_ALL) -lm
-API_TESTS := $(API_PROGRAMS:$(OUT)/tests/api/%=api-%)
+# The sanitizers keep what dlclose lets go.
+API_TESTS := $(filter-out $(if $(SANITIZE),api-dlopen),$(API_PROGRAMS:$(OUT)/tests/api/%=api-%))
 .PHONY: $(API_TESTS)
 $(API_TESTS): api-%: $(OUT)/tests/api/%
-	$(STAGE) $@ $<
+	$(STAGE) $(FLAVOUR)$@ $<
 api: $(API_TESTS) api-coverage ## the C programs against the shared library
 .PHONY: api-coverage
 api-coverage:
-	$(STAGE) $@ tests/api/coverage.sh
+	$(STAGE) $(FLAVOUR)$@ tests/api/coverage.sh
 
 headers: | $(call needs,test) ## every public header alone, under each standard and both compilers
-	$(STAGE) $@ tests/compile/headers.sh
+	$(STAGE) $(FLAVOUR)$@ tests/compile/headers.sh
 
 # The export lists, and the ABI against the committed baseline. The baseline is of g++ on this kind of machine.
 EXPORTS := $(LIBRARIES:%=exports-%)
 .PHONY: $(EXPORTS)
 $(EXPORTS): exports-%: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test)
-	$(STAGE) $@ env LOCUS_HEADERS_AHEAD=1 LOCUS_MAY_NEED='$(MAY_NEED_$*)' tests/abi/exports.sh $(SHARED_$*) src/lib$*.map $(HEADERS_$*)
+	$(STAGE) $(FLAVOUR)$@ env LOCUS_HEADERS_AHEAD=1 LOCUS_MAY_NEED='$(MAY_NEED_$*)' tests/abi/exports.sh $(SHARED_$*) src/lib$*.map $(HEADERS_$*)
 exports: $(EXPORTS) ## what library, version script and headers export is the same
 
 ABIS := $(LIBRARIES:%=abi-%)
 .PHONY: $(ABIS)
 $(ABIS): abi-%: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test)
-	$(STAGE) $@ tests/abi/compare.sh $(SHARED_$*)
+	$(STAGE) $(FLAVOUR)$@ tests/abi/compare.sh $(SHARED_$*)
 abi: $(ABIS) ## compare the ABI with tests/abi/*.abi
 abi-baseline: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test) ## renew tests/abi/*.abi after a meant change
 	@for library in $^; do tests/abi/compare.sh --renew $$library || exit 1; done
@@ -66,11 +69,11 @@ MEMCHECK_API := $(API_TESTS:%=memcheck-%)
 MEMCHECK_UNIT := $(UNIT_AREAS:%=memcheck-unit-%)
 .PHONY: $(MEMCHECK_API) $(MEMCHECK_UNIT)
 $(MEMCHECK_API): memcheck-api-%: $(OUT)/tests/api/%
-	$(STAGE) $@ $(MEMCHECK) $(if $(filter dlopen,$*),,$(MEMCHECK_REACHABLE)) $< $(if $(filter dlopen,$*),20)
+	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $(if $(filter dlopen,$*),,$(MEMCHECK_REACHABLE)) $< $(if $(filter dlopen,$*),20)
 $(MEMCHECK_UNIT): memcheck-unit-%: $(OUT)/tests/unit_%
-	$(STAGE) $@ $(MEMCHECK) $< --gtest_brief=1 --gtest_filter='$(or $(UNIT_MEMCHECK_$*),*)'
+	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $< --gtest_brief=1 --gtest_filter='$(or $(UNIT_MEMCHECK_$*),*)'
 memcheck: $(MEMCHECK_API) $(MEMCHECK_UNIT) $(MEMCHECK_RUNS) ## Valgrind over the API tests, the short unit tests, a small demo
 
 # Installation: an outside C and C++ program, by pkg-config and by CMake, shared and static; then uninstall leaves nothing.
 install-test: $(foreach name,$(LIBRARIES),$(SHARED_$(name)) $(STATIC_$(name))) | $(call needs,test) ## try make install and uninstall
-	$(STAGE) $@ env MAKE='$(MAKE)' tests/install/run.sh $(OUT)/install-test $(LIBRARIES)
+	+$(STAGE) $(FLAVOUR)$@ env MAKE='$(MAKE)' tests/install/run.sh
