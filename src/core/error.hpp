@@ -33,7 +33,8 @@ template <typename... Parts>
 // A bad argument: fail(LOCUS_E_ARGUMENT, ...) unless `good`.
 template <typename... Parts>
 void require(bool good, const Parts &...parts) {
-    if (!good) fail(LOCUS_E_ARGUMENT, parts...);
+    if (!good)
+        fail(LOCUS_E_ARGUMENT, parts...);
 }
 
 // A pointer argument that must not be NULL; `name` is the parameter's name in the header.

@@ -20,9 +20,9 @@ SOVERSION := $(firstword $(subst ., ,$(VERSION)))
 WARN := -Wall -Wextra -Wpedantic -Wconversion -Werror
 CPPFLAGS_ALL := -Iinclude -Isrc $(CPPFLAGS)
 # -ffile-prefix-map: no path of the build machine in what is installed. Unique symbols (a GNU extension) would pin the library
-# in memory after dlclose.
-CXXFLAGS_ALL := -std=c++20 -g -fPIC -pthread -fvisibility=hidden -fvisibility-inlines-hidden -ffile-prefix-map=$(CURDIR)/= \
-    $(if $(findstring clang,$(CXX)),,-fno-gnu-unique) $(WARN) $(CXXFLAGS)
+# in memory after dlclose. -ffp-contract=off: a fused multiply-add would give other edge weights than separate ones.
+CXXFLAGS_ALL := -std=c++20 -g -fPIC -pthread -fvisibility=hidden -fvisibility-inlines-hidden -ffp-contract=off \
+    -ffile-prefix-map=$(CURDIR)/= $(if $(findstring clang,$(CXX)),,-fno-gnu-unique) $(WARN) $(CXXFLAGS)
 CFLAGS_ALL := -std=c11 -g -pthread -ffile-prefix-map=$(CURDIR)/= $(WARN) $(CFLAGS)
 LDFLAGS_ALL := -pthread $(LDFLAGS)
 ifeq ($(MODE),debug)

@@ -1,0 +1,72 @@
+// What every engine does: from a graph and sources, the packed word of every voxel. All engines give the same words.
+#pragma once
+
+#include "core/progress.hpp"
+#include "graph/graph.hpp"
+
+#include <locus/diagram.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace locus::graph {
+
+// Where a label starts. Several sources may share a voxel; the smallest (distance, label) wins.
+struct Source {
+    uint64_t voxel;    // passable
+    uint64_t distance; // in steps, at most max_exact
+    uint32_t label;    // below layout().labels(); of equal distances the smaller label wins
+};
+
+struct Problem {
+    const Graph &graph;
+    std::span<const Source> sources;
+    uint64_t cutoff = UINT64_MAX; // in steps: voxels farther than this stay unreached; may exceed what the words hold
+    bool trace = false;
+
+    // The largest distance that is kept.
+    uint64_t limit() const { return std::min(cutoff, graph.layout().max_exact()); }
+    // Whether some path may be longer than the words hold. Where not, no engine needs to look.
+    bool may_overflow() const {
+        Wide longest = 0;
+        for (const Source &source : sources)
+            longest = std::max<Wide>(longest, source.distance);
+        return cutoff > graph.layout().max_exact() && longest + graph.longest_path() > graph.layout().max_exact();
+    }
+};
+
+// What a solve did.
+struct Report {
+    uint64_t relaxations = 0;
+    uint64_t iterations = 0;
+    double seconds_import = 0;
+    double seconds_solve = 0;
+    double seconds_export = 0;
+    uint32_t threads = 1;
+    bool clipped = false;        // some path was longer than limit(); may be true without need
+    std::vector<uint64_t> trace; // active voxels per iteration, where Problem::trace asks and the engine has iterations
+};
+
+// A word per voxel, x fastest; unreached() where no source reaches within the limit, and on impassable voxels.
+using Words = std::variant<std::vector<uint32_t>, std::vector<uint64_t>>;
+
+class Engine {
+public:
+    virtual ~Engine() = default;
+    virtual uint32_t kind() const = 0; // LOCUS_ENGINE_
+    // Whatever is thrown (out of memory, stopped, a caller's weight out of range), `words` is as before then.
+    virtual Report solve(const Problem &problem, Words &words, Progress &progress) = 0;
+};
+
+// The engine for a LOCUS_ENGINE_ constant; throws LOCUS_E_ARGUMENT for others.
+std::unique_ptr<Engine> make_engine(uint32_t kind);
+
+// The distance of the nearest voxel left unreached, or UINT64_MAX where no edge leads from a reached to an unreached
+// one: whether words that came out of a solve missed anything, by the edges across their frontier.
+uint64_t next_distance(const Graph &graph, const Words &words);
+
+} // namespace locus::graph

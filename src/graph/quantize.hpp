@@ -1,0 +1,139 @@
+// Integer edge weights: the only place where a material becomes steps of distance. Every engine, SIMD and CUDA
+// included, computes exactly these numbers:
+// - Arithmetic is float for 32-bit words and double for 64-bit words, in the order written here, each operation
+// correctly
+//   rounded and none fused with another (compile with -ffp-contract=off, nvcc with -fmad=false).
+// - A voxel enters as its operand: its compliance (mean and max rule), 1 (uniform rule) or its stiffness (mean
+// stiffness).
+// - steps() rounds half to even and never gives 0: two voxels joined by a free edge would support each other after a
+// cut.
+#pragma once
+
+#include "core/word.hpp"
+#include "graph/grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace locus::graph {
+
+// The floating-point type that belongs to a word type.
+template <typename Word>
+using Real = std::conditional_t<sizeof(Word) == 4, float, double>;
+
+// max(1, x rounded half to even) for 0 <= x <= WordLayout::weight_limit(). Adding 1.5 * 2^23 (2^52) leaves no bits for
+// a fraction, so the addition rounds.
+template <typename Word>
+LOCUS_HD inline Word steps(Real<Word> x) {
+    constexpr Real<Word> magic = sizeof(Word) == 4 ? Real<Word>(12582912.0) : Real<Word>(6755399441055744.0);
+    const Real<Word> rounded = (x + magic) - magic;
+    return rounded > Real<Word>(1) ? static_cast<Word>(rounded) : Word{1};
+}
+
+// The operand of a voxel, NaN where it is impassable.
+struct Operand {
+    uint32_t rule;     // LOCUS_WEIGHT_
+    uint32_t material; // LOCUS_MATERIAL_
+
+    LOCUS_HD bool passable(float value) const {
+        if (material == LOCUS_MATERIAL_STIFFNESS)
+            return value > 0;
+        return value >= 0 && value <= std::numeric_limits<float>::max();
+    }
+    template <typename R>
+    LOCUS_HD R of(float value) const {
+        if (!passable(value))
+            return std::numeric_limits<R>::quiet_NaN();
+        if (rule == LOCUS_WEIGHT_UNIFORM || rule == LOCUS_WEIGHT_CALLER)
+            return R(1);
+        const bool wants_stiffness = rule == LOCUS_WEIGHT_MEAN_STIFFNESS;
+        const bool has_stiffness = material == LOCUS_MATERIAL_STIFFNESS;
+        return wants_stiffness == has_stiffness ? static_cast<R>(value) : R(1) / static_cast<R>(value);
+    }
+};
+
+// Mean compliance, and uniform with all operands 1: w(u, v) = q(u) + q(v), q(v) = steps(c(v) * scale * len / 2).
+template <typename Word>
+struct HalfSum {
+    std::array<Real<Word>, 7> factor; // scale * len / 2 by length class
+
+    LOCUS_HD Word half(Real<Word> c, unsigned kind) const { return steps<Word>(c * factor[kind]); }
+    LOCUS_HD Word operator()(Real<Word> a, Real<Word> b, unsigned kind) const { return half(a, kind) + half(b, kind); }
+};
+
+// Max compliance: w(u, v) = max(Q(u), Q(v)), Q(v) = steps(c(v) * scale * len); steps() is monotone, so the maximum may
+// be taken of the compliances or of the integers.
+template <typename Word>
+struct Larger {
+    std::array<Real<Word>, 7> factor; // scale * len
+
+    LOCUS_HD Word operator()(Real<Word> a, Real<Word> b, unsigned kind) const {
+        return steps<Word>((a < b ? b : a) * factor[kind]);
+    }
+};
+
+// Mean stiffness with exponent 1: w(u, v) = steps(2 * scale * len / (k(u) + k(v))).
+template <typename Word>
+struct MeanStiffness {
+    std::array<Real<Word>, 7> factor; // 2 * scale * len
+
+    LOCUS_HD Word operator()(Real<Word> a, Real<Word> b, unsigned kind) const {
+        return steps<Word>(factor[kind] / (a + b));
+    }
+};
+
+// x^-p for p > 0 by table, so that it is the same on every machine: x = 2^e * m with m in [1, 2), the power of 2^e from
+// one table, that of m by linear interpolation in another (relative error below p (p + 1) / 8 * 2^-24 plus two
+// roundings).
+template <typename R>
+class InversePower {
+public:
+    explicit InversePower(double p) : p_(p), mantissa_(size_t{1} << bits_ | 1), exponent_(2 * max_exponent) {
+        for (size_t i = 0; i < mantissa_.size(); ++i)
+            mantissa_[i] = static_cast<R>(std::pow(1.0 + std::ldexp(static_cast<double>(i), -bits_), -p));
+        for (size_t e = 0; e < exponent_.size(); ++e)
+            exponent_[e] = static_cast<R>(std::exp2(-p * (static_cast<double>(e) - max_exponent)));
+    }
+
+    double exponent() const { return p_; }
+
+    R operator()(R x) const {
+        if (!(x < std::numeric_limits<R>::infinity()))
+            return R(0);
+        if (!(x > R(0)))
+            return std::numeric_limits<R>::infinity();
+        int e = 0;
+        const R m = std::frexp(x, &e) * R(2); // in [1, 2), x = m * 2^(e - 1)
+        const R place = (m - R(1)) * static_cast<R>(size_t{1} << bits_);
+        const auto i = static_cast<size_t>(place);
+        const R slope = mantissa_[i + 1] - mantissa_[i];
+        const R rise = slope * (place - static_cast<R>(i));
+        return (mantissa_[i] + rise) * exponent_[static_cast<size_t>(e - 1 + max_exponent)];
+    }
+
+private:
+    static constexpr int bits_ = 12;
+    static constexpr int max_exponent = sizeof(R) == 4 ? 160 : 1100; // beyond every finite x, denormals included
+    double p_;
+    std::vector<R> mantissa_;
+    std::vector<R> exponent_;
+};
+
+// Mean stiffness with any exponent: w(u, v) = steps(scale * len * 2^p * (k(u) + k(v))^-p).
+template <typename Word>
+struct PowerStiffness {
+    std::array<Real<Word>, 7> factor; // scale * len * 2^p
+    const InversePower<Real<Word>> *power;
+
+    Word operator()(Real<Word> a, Real<Word> b, unsigned kind) const {
+        return steps<Word>((*power)(a + b) * factor[kind]);
+    }
+};
+
+} // namespace locus::graph
