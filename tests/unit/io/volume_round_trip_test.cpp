@@ -1,6 +1,8 @@
 // Volumes written and read back: every type, format, way of storing and number of components.
 #include "tests/unit/io/volume_files.hpp"
 
+#include <cmath>
+
 namespace {
 
 using namespace volume_test;
@@ -38,7 +40,7 @@ TEST_P(RoundTrip, KeepsNumbersAndPlace) {
         locus_volume_write_options options;
         ASSERT_EQ(locus_volume_write_options_init(&options, sizeof options), LOCUS_OK);
         options.compression = compression;
-        const std::string path = folder / ("v" + std::to_string(type) + ending);
+        const std::string path = folder / (std::to_string(type) + ending);
         ASSERT_EQ(locus_volume_write(path.c_str(), &info, numbers.data(), &options), LOCUS_OK) << locus_io_last_error();
 
         locus_volume_read_options keep = read_options();
