@@ -4,7 +4,7 @@ set -eu
 warn=(-pedantic -Wall -Wextra -Werror -fsyntax-only -Iinclude)
 failed=0
 try() { # compiler language standard header
-    printf '#include <%s>\n#include <%s>\n' "$4" "$4" | "$1" "${warn[@]}" "-std=$3" -x "$2" - ||
+    printf '#include <%s>\n#include <%s>\n' "$4" "$4" | "$1" "${warn[@]}" -std=$3 -x "$2" - ||
         { echo "FAILED: $4 alone with $1 -std=$3"; failed=1; }
 }
 for path in include/locus/*; do
@@ -14,6 +14,8 @@ for path in include/locus/*; do
         try clang++ c++ $standard "$header"
     done
     case $path in *.hpp) continue ;; esac
+    # A field added inside hidden padding would not change the size of the struct: there is none.
+    try gcc c "c99 -Wpadded" "$header"
     for standard in c99 c11 c17; do
         try gcc c $standard "$header"
         try clang c $standard "$header"

@@ -11,8 +11,6 @@ define library
 LIBRARIES += $(1)
 HEADERS_$(1) := $(3)
 LIBS_$(1) := $(4)
-JOBS_$(1) := $(5)
-SONAME_$(1) := lib$(1).so.$(SOVERSION)
 SHARED_$(1) := $(OUT)/lib$(1).so.$(VERSION)
 STATIC_$(1) := $(OUT)/lib$(1).a
 OBJECTS_$(1) := $(2:%=$(OUT)/%.o)
