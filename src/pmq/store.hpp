@@ -3,45 +3,46 @@
 #pragma once
 
 #include "pmq/departures.hpp"
+#include "pmq/eviction.hpp"
 #include "pmq/layout/layout.hpp"
 #include "pmq/query/selection.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace locus::pmq {
 
 class Store {
 public:
-    explicit Store(const locus_pmq_options &options); // throws Error(LOCUS_E_ARGUMENT) for an option out of its range
+    // Throws Error(LOCUS_E_ARGUMENT) for an option out of its range.
+    explicit Store(const locus_pmq_options &options);
 
-    // True unless a callback stopped; what was asked for has happened then, too.
+    // Each is true unless a callback stopped; what was asked for has happened all the same.
     bool insert(Bytes records, size_t count, int64_t now);
     bool sweep(int64_t now, uint64_t &evicted);
     bool erase(const Selection &selection, uint64_t &erased);
 
-    // The queries (query/queries.hpp) ask this.
+    // What the queries (query/queries.hpp) ask.
     std::shared_ptr<const View> view() const { return layout_->view(); }
-    const RecordFormat &format() const noexcept { return format_; }
     locus_pmq_stats stats() const;
     void check() const;
 
 private:
-    Moment moment_at(int64_t now) const;
+    Eviction eviction_at(int64_t now) const;
     Batch checked(Bytes records, size_t count, int64_t now);
-    template <typename Work>
-    bool change(int64_t now, Work &&work);
+    void check_record(Bytes record, size_t index, int64_t now) const;
+    template <typename Change>
+    uint64_t change(Change &&change);
+    void log_growth(const LayoutStats &before) const;
 
-    locus_pmq_options options_;
+    const locus_pmq_options options_;
     const RecordFormat &format_;
-    std::unique_ptr<Layout> layout_;
+    const std::unique_ptr<Layout> layout_;
     Departures departures_;
     int64_t now_ = INT64_MIN;
-    std::vector<uint64_t> keys_;      // of the batch at work
-    std::vector<std::byte> adjusted_; // its records, where times had to be changed
-    uint64_t inserted_ = 0, erased_ = 0, batches_ = 0, longest_pause_ns_ = 0;
+    std::vector<uint64_t> keys_;     // of the batch at work
+    std::vector<std::byte> clamped_; // its records, if a time had to be changed
+    uint64_t inserted_ = 0, evicted_ = 0, erased_ = 0, batches_ = 0, longest_pause_ns_ = 0;
 };
-
-// An empty layout of the kind the options ask for.
-std::unique_ptr<Layout> make_layout(const locus_pmq_options &options, const RecordFormat &format);
 
 } // namespace locus::pmq

@@ -22,12 +22,13 @@ struct Selection;
 struct Place {
     uint64_t first = 0; // the block that may hold the range's first record,
     uint64_t last = 0;  // and its last one
-    uint64_t node = 0;  // the layout's own
+    uint64_t node = 0;  // the layout's own,
+    unsigned level = 0; // and the level of the quadrant it stands for
 
     bool empty() const noexcept { return first > last; }
     bool narrow() const noexcept { return last <= first + 1; } // so few blocks that scanning beats refining
     Place to(const Place &later) const noexcept {
-        return {first, later.last, node};
+        return {first, later.last, node, level};
     } // from here to the end of a later one
 };
 

@@ -23,10 +23,6 @@ public:
         return place_accepted(key, record) &&
                (!selection_.filter || selection_.filter(record, selection_.filter_user) != 0);
     }
-    // Every entry of the block is accepted.
-    bool all_of(const Block &block) const noexcept {
-        return block.within && !region_ && !late_ && !selection_.filter && selection_.times.from <= block.oldest;
-    }
 
 private:
     bool place_accepted(uint64_t key, Bytes record) const noexcept {
@@ -56,6 +52,19 @@ bool scan_accepted(const View &view, const Selection &selection, const RangeAt &
         }
         return true;
     });
+}
+
+// How many records of a range are accepted; by the layout's own counts where no record needs to be asked.
+inline uint64_t count_in(const View &view, const Selection &live, const RangeAt &range) {
+    const bool plain = range.inside && !live.filter && live.times.to >= view.moment().now;
+    if (plain)
+        return view.count(range.place, range.keys, live.times.from);
+    uint64_t total = 0;
+    scan_accepted(view, live, range, Order::any, [&](const Block &, size_t) {
+        ++total;
+        return true;
+    });
+    return total;
 }
 
 } // namespace locus::pmq

@@ -1,0 +1,37 @@
+// Counting and reading.
+#include "pmq/query/queries.hpp"
+
+#include "pmq/query/scan.hpp"
+
+#include <algorithm>
+
+namespace locus::pmq {
+
+uint64_t count(const View &view, const Selection &selection) {
+    const Selection live = selection.at(view.moment());
+    uint64_t total = 0;
+    for_each_range(view, live.region, [&](const RangeAt &range) {
+        total += count_in(view, live, range);
+        return true;
+    });
+    return total;
+}
+
+size_t read(const View &view, const Selection &selection, std::byte *records, size_t capacity) {
+    const size_t size = view.format().size;
+    size_t found = 0;
+    for_each_record(view, selection, Order::key, [&](uint64_t, Bytes record) {
+        if (found < capacity)
+            std::memcpy(records + found * size, record, size);
+        ++found;
+        return true;
+    });
+    return found;
+}
+
+bool visit(const View &view, const Selection &selection, locus_visit_fn visit, void *user) {
+    return for_each_record(view, selection, Order::key,
+                           [&](uint64_t, Bytes record) { return visit(record, user) == 0; });
+}
+
+} // namespace locus::pmq

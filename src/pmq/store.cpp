@@ -1,0 +1,143 @@
+// The store's side of every call that changes it.
+#include "pmq/store.hpp"
+
+#include "core/error.hpp"
+#include "pmq/options.hpp"
+#include "pmq/query/queries.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+namespace locus::pmq {
+namespace {
+
+const locus_pmq_options &checked_options(const locus_pmq_options &options) {
+    check_options(options);
+    return options;
+}
+
+} // namespace
+
+Store::Store(const locus_pmq_options &options)
+    : options_(checked_options(options)), format_(record_format(options)), layout_(make_layout(options)),
+      departures_(format_, options.sink, options.sink_user) {}
+
+Eviction Store::eviction_at(int64_t now) const {
+    require(now >= now_, "now is ", now, ", before the clock's ", now_);
+    return Eviction(format_, Moment::at(now, options_.horizon), options_.remove, options_.remove_user);
+}
+
+void Store::check_record(Bytes record, size_t index, int64_t now) const {
+    const double latitude = format_.latitude(record), longitude = format_.longitude(record);
+    require(latitude >= -90 && latitude <= 90, "records[", index, "].latitude is ", latitude, ", not within -90..90");
+    require(longitude >= -180 && longitude <= 180, "records[", index, "].longitude is ", longitude,
+            ", not within -180..180");
+    require(format_.time(record) <= now || options_.future == LOCUS_FUTURE_CLAMP, "records[", index, "].time is ",
+            format_.time(record), ", after now, ", now);
+}
+
+// Check the records, bring their times down to `now` where the options say so, and find their keys.
+Batch Store::checked(Bytes records, size_t count, int64_t now) {
+    keys_.resize(count);
+    int64_t oldest = INT64_MAX, youngest = INT64_MIN;
+    for (size_t i = 0; i < count; ++i) {
+        const Bytes record = records + i * format_.size;
+        check_record(record, i, now);
+        keys_[i] = key_of(format_.latitude(record), format_.longitude(record));
+        oldest = std::min(oldest, format_.time(record));
+        youngest = std::max(youngest, format_.time(record));
+    }
+    if (youngest > now) {
+        clamped_.assign(records, records + count * format_.size);
+        for (size_t i = 0; i < count; ++i) {
+            std::byte *record = clamped_.data() + i * format_.size;
+            format_.set_time(record, std::min(format_.time(record), now));
+        }
+        records = clamped_.data();
+    }
+    return {records, keys_.data(), count, std::min(oldest, now)};
+}
+
+// Let the layout change, then hand over what has left. How many records left.
+template <typename Change>
+uint64_t Store::change(Change &&change) {
+    const auto start = std::chrono::steady_clock::now();
+    const LayoutStats before = layout_->stats();
+    const uint64_t left = departures_.left();
+    change();
+    const auto pause = std::chrono::steady_clock::now() - start;
+    longest_pause_ns_ = std::max(
+        longest_pause_ns_, static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(pause).count()));
+    log_growth(before);
+    return departures_.left() - left;
+}
+
+bool Store::insert(Bytes records, size_t count, int64_t now) {
+    Eviction eviction = eviction_at(now);
+    evicted_ += change([&] { layout_->insert(checked(records, count, now), eviction, departures_); });
+    now_ = now;
+    inserted_ += count;
+    ++batches_;
+    const bool handed_over = departures_.hand_over();
+    return handed_over && !eviction.stopped();
+}
+
+bool Store::sweep(int64_t now, uint64_t &evicted) {
+    Eviction eviction = eviction_at(now);
+    evicted = change([&] { layout_->sweep(eviction, departures_); });
+    now_ = now;
+    evicted_ += evicted;
+    const bool handed_over = departures_.hand_over();
+    return handed_over && !eviction.stopped();
+}
+
+bool Store::erase(const Selection &selection, uint64_t &erased) {
+    erased = change([&] { layout_->erase(selection, departures_); });
+    erased_ += erased;
+    return departures_.hand_over();
+}
+
+void Store::log_growth(const LayoutStats &before) const {
+    const LayoutStats after = layout_->stats();
+    if (!options_.log || after.slots == before.slots)
+        return;
+    char text[160];
+    std::snprintf(text, sizeof text, "%s from %llu to %llu slots for %llu records",
+                  after.slots > before.slots ? "grown" : "shrunk", static_cast<unsigned long long>(before.slots),
+                  static_cast<unsigned long long>(after.slots), static_cast<unsigned long long>(after.stored));
+    options_.log(LOCUS_LOG_INFO, text, options_.log_user);
+}
+
+locus_pmq_stats Store::stats() const {
+    const LayoutStats layout = layout_->stats();
+    locus_pmq_stats stats{};
+    stats.struct_size = sizeof stats;
+    stats.records = pmq::count(*view(), {});
+    stats.stored = layout.stored;
+    stats.pending = departures_.pending();
+    stats.slots = layout.slots;
+    stats.bytes = layout.bytes + departures_.bytes() + keys_.capacity() * sizeof(uint64_t) + clamped_.capacity();
+    stats.inserted = inserted_;
+    stats.evicted = evicted_;
+    stats.erased = erased_;
+    stats.batches = batches_;
+    stats.moved = layout.moved;
+    stats.rebalances = layout.rebalances;
+    stats.grows = layout.grows;
+    stats.shrinks = layout.shrinks;
+    stats.longest_pause_ns = longest_pause_ns_;
+    stats.density = layout.slots == 0 ? 0.0 : static_cast<double>(layout.stored) / static_cast<double>(layout.slots);
+    stats.now = now_;
+    return stats;
+}
+
+void Store::check() const {
+    layout_->check();
+    const uint64_t gone = evicted_ + erased_, stored = layout_->stats().stored;
+    if (inserted_ - gone != stored)
+        fail(LOCUS_E_INTERNAL, "store: ", inserted_, " records came in and ", gone, " left, but ", stored,
+             " are stored");
+}
+
+} // namespace locus::pmq
