@@ -1,1 +1,30 @@
-# Rules of the bench targets.
+# The benchmarks: one program, tests/bench, linked with the static library; see docs/benchmarks.md.
+# Peers are compiled in where their headers are there, so the program builds with the library's own packages alone.
+BENCH_SOURCES := $(wildcard tests/bench/*/*.cpp)
+BENCH_OBJECTS := $(BENCH_SOURCES:%=$(OUT)/%.o)
+BENCH_PROGRAM := $(OUT)/tests/bench_locus
+BENCH_COMMIT := $(shell git describe --always --dirty --exclude '*' 2>/dev/null || echo unknown)
+# Libraries of the peers and of the compressed data, each where its header is found.
+bench_library = $(if $(shell echo '#include <$(1)>' | $(CXX) -E -xc++ - >/dev/null 2>&1 && echo yes),$(2))
+bench_libraries = $(call bench_library,zstd.h,-lzstd) $(call bench_library,sqlite3.h,-lsqlite3) \
+    $(call bench_library,hiredis/hiredis.h,-lhiredis) $(call bench_library,postgresql/libpq-fe.h,-lpq) \
+    $(call bench_library,absl/container/btree_map.h,-labsl_throw_delegate -labsl_raw_logging_internal)
+
+$(BENCH_OBJECTS): EXTRA_CPPFLAGS += -I.
+ifneq ($(filter bench,$(MAKECMDGOALS)),)
+$(BENCH_OBJECTS): | $(if $(SKIP_PACKAGES),,packages-bench)
+endif
+
+$(BENCH_PROGRAM): $(BENCH_OBJECTS) $(LIB_STATIC)
+	@echo "  LD  $@"
+	@$(CXX) $^ $(bench_libraries) $(LDFLAGS_ALL) -o $@
+
+.PHONY: bench bench-deps bench-smoke
+bench: $(BENCH_PROGRAM) ## run the benchmarks into build/bench.jsonl; ONLY=regex for some, QUICK=1 for small sizes
+	BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench.jsonl $(if $(ONLY),--only '$(ONLY)') $(if $(QUICK),--quick)
+
+bench-deps: ## install the optional peers of the benchmarks: databases, scikit-image
+	$(call packages,bench bench-deps)
+
+bench-smoke: $(BENCH_PROGRAM)
+	BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench-smoke.jsonl --quick --only '^(pmq|voronoi|update)'

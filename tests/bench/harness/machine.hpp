@@ -1,0 +1,21 @@
+// What the numbers were measured on.
+#ifndef LOCUS_BENCH_MACHINE_HPP
+#define LOCUS_BENCH_MACHINE_HPP
+
+#include <string>
+
+namespace bench {
+
+/// The processor's name as the kernel gives it.
+std::string cpu_name();
+/// The commit the program was built from (the environment's BENCH_COMMIT, set by make), or "unknown".
+std::string commit();
+/// What the library was built with: the words after the version in locus_version_text().
+std::string build_target();
+/// Bytes per second that `threads` threads together read and write while they copy large blocks.
+double copy_bandwidth(unsigned threads);
+/// Bytes that malloc has handed out and not got back.
+std::size_t allocated_bytes();
+
+} // namespace bench
+#endif

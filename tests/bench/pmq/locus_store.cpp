@@ -1,0 +1,87 @@
+// The library's own layouts behind the benchmark's store interface.
+#include "tests/bench/data/records.hpp"
+#include "tests/bench/harness/handles.hpp"
+#include "tests/bench/pmq/store.hpp"
+
+namespace bench {
+namespace {
+
+locus_pmq_options defaults() {
+    locus_pmq_options options;
+    need(locus_pmq_options_init(&options, sizeof options));
+    return options;
+}
+
+locus_pmq_query box_query(const locus_box &box) {
+    locus_pmq_query query;
+    need(locus_pmq_query_init(&query, sizeof query));
+    query.region = LOCUS_REGION_BOX;
+    query.box = box;
+    return query;
+}
+
+template <class Record>
+class LocusStore final : public TileStore<Record> {
+public:
+    LocusStore(Layout layout, int64_t horizon) {
+        locus_pmq_options options = defaults();
+        options.record = record_kind<Record>;
+        options.horizon = horizon;
+        if (layout != Layout::ours) {
+            options.layout = LOCUS_LAYOUT_PACKED_ARRAY;
+        }
+        if (layout == Layout::array_explicit) {
+            options.index = LOCUS_INDEX_EXPLICIT;
+        }
+        pmq_ = make_pmq(options);
+    }
+
+    void insert(std::span<const Record> batch, int64_t now) override {
+        need(locus_pmq_insert(pmq_.get(), batch.data(), batch.size(), now));
+    }
+
+    uint64_t count(const locus_box &box) override {
+        const locus_pmq_query query = box_query(box);
+        uint64_t found = 0;
+        need(locus_pmq_count(pmq_.get(), &query, &found));
+        return found;
+    }
+
+    std::size_t read(const locus_box &box, std::span<Record> out) override {
+        const locus_pmq_query query = box_query(box);
+        std::size_t found = 0;
+        need(locus_pmq_read(pmq_.get(), &query, out.data(), out.size(), &found));
+        return found;
+    }
+
+    void tile(const TileId &tile, std::vector<uint32_t> &bins) override {
+        bins.resize(tile_bins);
+        need(locus_pmq_tile(pmq_.get(), tile.zoom, tile.x, tile.y, 8, nullptr, bins.data(), bins.size(), nullptr));
+    }
+
+    uint64_t size() override { return stats().records; }
+    std::size_t bytes() override { return stats().bytes; }
+
+private:
+    locus_pmq_stats stats() const {
+        locus_pmq_stats stats{};
+        stats.struct_size = sizeof stats;
+        need(locus_pmq_get_stats(pmq_.get(), &stats));
+        return stats;
+    }
+
+    Pmq pmq_;
+};
+
+} // namespace
+
+template <class Record>
+std::unique_ptr<TileStore<Record>> make_locus(Layout layout, int64_t horizon) {
+    return std::make_unique<LocusStore<Record>>(layout, horizon);
+}
+template std::unique_ptr<TileStore<locus_point32>> make_locus(Layout, int64_t);
+template std::unique_ptr<TileStore<locus_text156>> make_locus(Layout, int64_t);
+
+bool array_is_peer() { return defaults().layout != LOCUS_LAYOUT_PACKED_ARRAY; }
+
+} // namespace bench

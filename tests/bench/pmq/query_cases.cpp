@@ -1,0 +1,175 @@
+// pmq.count.*, pmq.read.* and pmq.tile.*: queries of 10 M records under a live horizon.
+#include "tests/bench/harness/cases.hpp"
+#include "tests/bench/pmq/cover.hpp"
+#include "tests/bench/pmq/drive.hpp"
+
+#include <random>
+
+namespace bench {
+namespace {
+
+constexpr std::size_t batch = 1000;
+
+/// A stream of which the last `live` records lie inside the horizon, and the stores that have taken it.
+struct Window {
+    std::vector<locus_point32> records;
+    std::span<const locus_point32> live;
+    int64_t horizon = 0;
+
+    explicit Window(bool quick) {
+        const std::size_t count = quick ? 300'000 : 10'000'000;
+        records = clustered<locus_point32>(count + count / 10, batch);
+        live = std::span(records).last(count);
+        horizon = records.back().time - live.front().time;
+    }
+};
+
+struct Filled {
+    std::string peer;
+    std::unique_ptr<TileStore<locus_point32>> store;
+};
+
+std::vector<Filled> fill(const Window &window) {
+    std::vector<Filled> stores;
+    const auto add = [&](const std::string &peer, std::unique_ptr<TileStore<locus_point32>> store) {
+        feed<locus_point32>(*store, window.records, batch);
+        stores.push_back({peer, std::move(store)});
+    };
+    add("", make_locus<locus_point32>(Layout::ours, window.horizon));
+    if (array_is_peer()) {
+        add("array", make_locus<locus_point32>(Layout::array, window.horizon));
+    }
+    if (have_btree()) {
+        add("btree", make_btree<locus_point32>(window.horizon));
+    }
+    return stores;
+}
+
+/// The queries: boxes around places drawn from the records, so that busy places are asked for more often.
+std::vector<locus_box> boxes(const Window &window, double radius_km, std::size_t count) {
+    std::mt19937_64 random(11);
+    std::vector<locus_box> out;
+    while (out.size() < count) {
+        const locus_point32 &centre = window.live[random() % window.live.size()];
+        out.push_back(box_around(centre.latitude, centre.longitude, radius_km));
+    }
+    return out;
+}
+
+/// Time `ask` (a query's number; returns its answer's size) over all queries: microseconds for each.
+template <class Ask>
+double per_query(std::size_t queries, std::vector<uint64_t> &answers, Ask ask) {
+    answers.assign(queries, 0);
+    const double seconds = timed([&] {
+        for (std::size_t q = 0; q < queries; ++q) {
+            answers[q] = ask(q);
+        }
+    });
+    return 1e6 * seconds / static_cast<double>(queries);
+}
+
+uint64_t scan_count(const Window &window, const locus_box &box) {
+    return static_cast<uint64_t>(std::count_if(window.live.begin(), window.live.end(), [&](const locus_point32 &r) {
+        return inside(box, r.latitude, r.longitude);
+    }));
+}
+
+void box_case(Row &row, double radius_km, bool read) {
+    const Window window(row.quick);
+    std::vector<Filled> stores = fill(window);
+    const std::vector<locus_box> queries = boxes(window, radius_km, row.quick ? 4 : 24);
+    std::vector<uint64_t> want;
+    for (const locus_box &box : queries) {
+        want.push_back(scan_count(window, box));
+    }
+    std::vector<locus_point32> out(*std::max_element(want.begin(), want.end()));
+    std::vector<Contestant> contestants;
+    for (Filled &filled : stores) {
+        contestants.push_back({filled.peer, [&](Notes &) {
+                                   std::vector<uint64_t> found;
+                                   const double time = per_query(queries.size(), found, [&](std::size_t q) {
+                                       return read ? filled.store->read(queries[q], out)
+                                                   : filled.store->count(queries[q]);
+                                   });
+                                   row.check(found == want, filled.peer + " finds other numbers than a scan");
+                                   return time;
+                               }});
+    }
+    race(row, contestants);
+    for (Filled &filled : stores) {
+        check_store<locus_point32>(row, filled.peer, *filled.store, window.live);
+    }
+    double sum = 0;
+    for (const uint64_t records : want) {
+        sum += static_cast<double>(records);
+    }
+    row.extras["records_per_query"] = sum / static_cast<double>(want.size());
+}
+
+/// The bins of a tile by a plain scan.
+std::vector<uint32_t> scan_tile(const Window &window, const TileId &tile) {
+    std::vector<uint32_t> bins(tile_bins);
+    for (const locus_point32 &record : window.live) {
+        const TilePlace place = place_of(record.latitude, record.longitude);
+        const unsigned below = key_levels - tile.zoom;
+        if (place.x >> below == tile.x && place.y >> below == tile.y) {
+            const uint32_t x = place.x >> (below - 8) & 255, y = place.y >> (below - 8) & 255;
+            ++bins[y * 256 + x];
+        }
+    }
+    return bins;
+}
+
+/// The 256x256 tile over the heaviest city, where there is most to count.
+void tile_case(Row &row, unsigned zoom) {
+    const Window window(row.quick);
+    std::vector<Filled> stores = fill(window);
+    double latitude, longitude;
+    heaviest_city(latitude, longitude);
+    const TilePlace place = place_of(latitude, longitude);
+    const TileId tile{zoom, place.x >> (key_levels - zoom), place.y >> (key_levels - zoom)};
+    const std::vector<uint32_t> want = scan_tile(window, tile);
+    std::vector<uint32_t> bins(tile_bins);
+    std::vector<Contestant> contestants;
+    const std::size_t repeats = row.quick ? 2 : 10;
+    for (Filled &filled : stores) {
+        contestants.push_back({filled.peer, [&](Notes &) {
+                                   const double seconds = timed([&] {
+                                       for (std::size_t i = 0; i < repeats; ++i) {
+                                           filled.store->tile(tile, bins);
+                                       }
+                                   });
+                                   row.check(bins == want, filled.peer + " counts other bins than a scan");
+                                   return 1e6 * seconds / static_cast<double>(repeats);
+                               }});
+    }
+    race(row, contestants);
+}
+
+} // namespace
+
+void add_pmq_queries(Cases &cases) {
+    struct Radius {
+        double km;
+        std::map<std::string, double> count_goals, read_goals;
+    };
+    const Radius radii[] = {{1, {{"array", 4}, {"btree", 10}}, {{"array", 1.6}, {"btree", 4}}},
+                            {30, {{"array", 4}, {"btree", 100}}, {{"array", 1.8}, {"btree", 15}}},
+                            {400, {{"array", 7}, {"btree", 100}}, {{"array", 2.2}, {"btree", 15}}}};
+    for (const bool read : {false, true}) {
+        for (const Radius &radius : radii) {
+            const double km = radius.km;
+            cases.push_back({(read ? "pmq.read." : "pmq.count.") + std::to_string(static_cast<int>(km)) + "km", "us",
+                             read ? radius.read_goals : radius.count_goals,
+                             [km, read](Row &row) { box_case(row, km, read); }});
+        }
+    }
+    const std::pair<unsigned, double> zooms[] = {{2, 1.6}, {4, 3.5}, {6, 5}, {8, 5}, {10, 10}, {12, 8}};
+    for (const auto &[zoom, goal] : zooms) {
+        cases.push_back({"pmq.tile.z" + std::to_string(zoom), "us", {{"array", goal}}, [level = zoom](Row &row) {
+                             tile_case(row, level);
+                         }});
+    }
+}
+
+} // namespace bench

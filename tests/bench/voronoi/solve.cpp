@@ -1,0 +1,112 @@
+// Engines on volumes.
+#include "tests/bench/voronoi/solve.hpp"
+
+#include "tests/bench/harness/clock.hpp"
+
+#include <memory>
+
+namespace bench {
+
+Solver::Solver(const Volume &volume, const Engine &engine) : engine_(engine), voxels_(volume.voxels()) {
+    locus_graph_options options;
+    need(locus_graph_options_init(&options, sizeof options));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        options.dims[axis] = volume.dims[axis];
+        options.spacing[axis] = volume.spacing[axis];
+    }
+    options.word_bits = engine.word_bits;
+    options.threads = engine.threads;
+    graph_ = make_graph(options, volume.compliance.data());
+    locus_diagram_options how;
+    need(locus_diagram_options_init(&how, sizeof how));
+    how.engine = engine.engine;
+    diagram_ = make_diagram(graph_, how);
+    need(locus_diagram_add_seeds(diagram_.get(), volume.seeds.data(), volume.seeds.size()));
+}
+
+double Solver::solve(Notes &notes) {
+    const double cpu = timed([&] { need(locus_diagram_solve(diagram_.get(), nullptr, nullptr)); });
+    const locus_diagram_stats did = stats();
+    notes.add("import_ms", 1e3 * did.seconds_import);
+    notes.add("export_ms", 1e3 * did.seconds_export);
+    const double wall = did.seconds_import + did.seconds_solve + did.seconds_export;
+    return 1e3 * (engine_.threads == 1 ? cpu * did.seconds_solve / wall : did.seconds_solve);
+}
+
+locus_graph_info Solver::info() const {
+    locus_graph_info info{};
+    info.struct_size = sizeof info;
+    need(locus_graph_get_info(graph_.get(), &info));
+    return info;
+}
+
+locus_diagram_stats Solver::stats() const {
+    locus_diagram_stats stats{};
+    stats.struct_size = sizeof stats;
+    need(locus_diagram_get_stats(diagram_.get(), &stats));
+    return stats;
+}
+
+std::vector<uint32_t> Solver::labels() const {
+    std::vector<uint32_t> out(voxels_);
+    need(locus_diagram_labels(diagram_.get(), nullptr, out.data(), out.size()));
+    return out;
+}
+
+std::vector<uint64_t> Solver::exact_distances() const {
+    std::vector<uint64_t> out(voxels_);
+    need(locus_diagram_distances_exact(diagram_.get(), nullptr, out.data(), out.size()));
+    return out;
+}
+
+std::vector<float> Solver::distances() const {
+    std::vector<float> out(voxels_);
+    need(locus_diagram_distances(diagram_.get(), nullptr, out.data(), out.size()));
+    return out;
+}
+
+const char *simd_name(uint32_t simd) {
+    switch (simd) {
+    case LOCUS_SIMD_SCALAR:
+        return "scalar";
+    case LOCUS_SIMD_SSE4:
+        return "sse4";
+    case LOCUS_SIMD_AVX2:
+        return "avx2";
+    case LOCUS_SIMD_AVX512:
+        return "avx512";
+    case LOCUS_SIMD_NEON:
+        return "neon";
+    default:
+        return "auto";
+    }
+}
+
+bool same_diagram(const Solver &a, const Solver &b) {
+    return a.labels() == b.labels() && a.exact_distances() == b.exact_distances();
+}
+
+void race_engines(Row &row, const Volume &volume, const std::vector<Engine> &engines) {
+    std::vector<std::unique_ptr<Solver>> solvers;
+    std::vector<Contestant> contestants;
+    for (const Engine &engine : engines) {
+        solvers.push_back(std::make_unique<Solver>(volume, engine));
+        contestants.push_back(
+            {engine.peer, [solver = solvers.back().get()](Notes &notes) { return solver->solve(notes); }});
+    }
+    race(row, contestants);
+    row.threads = engines.front().threads;
+    row.target = simd_name(solvers.front()->info().simd);
+    row.extras["word_bits"] = solvers.front()->info().word_bits;
+    row.extras["voxels"] = static_cast<double>(solvers.front()->info().passable);
+    for (const std::unique_ptr<Solver> &solver : solvers) {
+        Engine heap{"oracle", LOCUS_ENGINE_HEAP, 1, solver->info().word_bits};
+        Solver oracle(volume, heap);
+        Notes unused;
+        oracle.solve(unused);
+        row.check(same_diagram(*solver, oracle),
+                  (solver->peer().empty() ? "ours" : solver->peer()) + " has another diagram than the heap");
+    }
+}
+
+} // namespace bench
