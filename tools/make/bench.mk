@@ -12,7 +12,7 @@ bench_libraries = $(call bench_library,zstd.h,-lzstd) $(call bench_library,sqlit
 
 $(BENCH_OBJECTS): EXTRA_CPPFLAGS += -I.
 ifneq ($(filter bench,$(MAKECMDGOALS)),)
-$(BENCH_OBJECTS): | $(if $(SKIP_PACKAGES),,packages-bench)
+$(BENCH_OBJECTS): | $(call needs,bench)
 endif
 
 $(BENCH_PROGRAM): $(BENCH_OBJECTS) $(LIB_STATIC)
@@ -23,8 +23,7 @@ $(BENCH_PROGRAM): $(BENCH_OBJECTS) $(LIB_STATIC)
 bench: $(BENCH_PROGRAM) ## run the benchmarks into build/bench.jsonl; ONLY=regex for some, QUICK=1 for small sizes
 	BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench.jsonl $(if $(ONLY),--only '$(ONLY)') $(if $(QUICK),--quick)
 
-bench-deps: ## install the optional peers of the benchmarks: databases, scikit-image
-	$(call packages,bench bench-deps)
+bench-deps: packages-bench packages-bench-deps ## install the optional peers of the benchmarks: databases, scikit-image
 
 bench-smoke: $(BENCH_PROGRAM)
 	BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench-smoke.jsonl --quick --only '^(pmq|voronoi|update)'
