@@ -1,0 +1,90 @@
+// Bricks: the grid cut into blocks of 14 x 8 x 8 voxels. A row along x is 16 words: lanes 1 to 14 are the brick's own voxels,
+// lanes 0 and 15 copies of the x-neighbours' edge voxels, so that one row is one vector and lane shifts never leave it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace locus::bricks {
+
+inline constexpr unsigned kLanes = 16;     // words in a row
+inline constexpr unsigned kWidth = 14;     // own voxels in a row
+inline constexpr unsigned kSide = 8;       // rows in y and in z
+inline constexpr unsigned kRows = kSide * kSide;
+inline constexpr uint32_t kOwnLanes = 0x7FFE;
+
+// Rows of a brick as bits: row (y, z) is bit y + 8 * z.
+using RowMask = uint64_t;
+
+// A row's words and its voxels' compliances side by side: whoever reads the one needs the other.
+// An impassable voxel has compliance +infinity and a word that never falls.
+template <typename Word>
+struct alignas(64) BrickRow {
+    Word word[kLanes];
+    float operand[kLanes];
+};
+
+template <typename Word>
+struct Brick {
+    BrickRow<Word> row[kRows];
+};
+
+// The grid in bricks.
+struct Layout {
+    std::array<uint64_t, 3> dims{};  // voxels
+    std::array<uint32_t, 3> bricks{};
+
+    explicit Layout(const std::array<uint64_t, 3> &voxels) : dims(voxels) {
+        constexpr std::array<uint64_t, 3> size = {kWidth, kSide, kSide};
+        for (size_t a = 0; a < 3; ++a) bricks[a] = static_cast<uint32_t>((dims[a] + size[a] - 1) / size[a]);
+    }
+    size_t count() const { return size_t{bricks[0]} * bricks[1] * bricks[2]; }
+    size_t index(uint32_t bx, uint32_t by, uint32_t bz) const {
+        return bx + size_t{bricks[0]} * (by + size_t{bricks[1]} * bz);
+    }
+};
+
+// A brick's place in the grid of bricks.
+struct Place {
+    int32_t x = 0, y = 0, z = 0;
+};
+
+inline bool adjacent(const Place &a, const Place &b) {
+    const auto near = [](int32_t p, int32_t q) { return p - q <= 1 && q - p <= 1; };
+    return near(a.x, b.x) && near(a.y, b.y) && near(a.z, b.z);
+}
+
+inline constexpr RowMask kFirstY = 0x0101010101010101u; // rows with y = 0
+inline constexpr RowMask kLastY = kFirstY << 7;         // y = 7
+inline constexpr RowMask kFirstZ = 0xFFu;
+inline constexpr RowMask kLastZ = kFirstZ << 56;
+
+// The rows of `rows` and all that touch them in y and z.
+constexpr RowMask dilate(RowMask rows) {
+    rows |= ((rows << 1) & ~kFirstY) | ((rows >> 1) & ~kLastY);
+    return rows | (rows << 8) | (rows >> 8);
+}
+
+// The rows of the neighbour at (dy, dz) that touch the rows `rows` of this brick.
+constexpr RowMask touched(RowMask rows, int dy, int dz) {
+    RowMask moved = dilate(rows);
+    if (dy == 0 && dz == 0) return moved;
+    // Only the border rows reach across; they land on the opposite border.
+    moved = rows;
+    if (dy < 0) moved = (moved & kFirstY) << 7;
+    if (dy > 0) moved = (moved & kLastY) >> 7;
+    if (dz < 0) moved = (moved & kFirstZ) << 56;
+    if (dz > 0) moved = (moved & kLastZ) >> 56;
+    RowMask wide = dilate(moved);
+    if (dy < 0) wide &= kLastY;
+    if (dy > 0) wide &= kFirstY;
+    if (dz < 0) wide &= kLastZ;
+    if (dz > 0) wide &= kFirstZ;
+    return wide;
+}
+
+} // namespace locus::bricks

@@ -1,0 +1,157 @@
+// Which brick is visited next, and by which thread. Bricks wait in a heap by (smallest word that reaches them / width, order of
+// arrival): near enough to Dijkstra's order that few are visited in vain, coarse enough that a visit has much to do.
+// A brick is taken only while no adjacent one is being visited: a visit reads and writes nothing beyond its neighbours, so no two
+// visits touch the same memory.
+#pragma once
+
+#include "graph/bricks/store.hpp"
+#include "graph/bricks/visit.hpp"
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace locus::bricks {
+
+template <typename Word>
+class Schedule {
+public:
+    Schedule(const Store<Word> &store, unsigned threads, unsigned width_bits)
+        : store_(store), width_bits_(width_bits), state_(store.layout().count()), slot_(threads) {}
+
+    struct Work {
+        RowMask active = 0, changed = 0, changed_first = 0, changed_last = 0;
+    };
+    struct Taken {
+        size_t brick;
+        Place place;
+        Work work;
+    };
+
+    // Rows of a brick to look at, and rows of it that have changed already. Before the team starts, or under the lock.
+    void add(size_t brick, const Work &work, Word key) {
+        State &s = state_[brick];
+        s.work.active |= work.active;
+        s.work.changed |= work.changed;
+        s.work.changed_first |= work.changed_first;
+        s.work.changed_last |= work.changed_last;
+        const uint64_t bucket = key >> width_bits_;
+        if (bucket >= s.bucket) return;
+        s.bucket = bucket;
+        push({bucket, arrivals_++, static_cast<uint32_t>(brick)});
+    }
+
+    // End the visit of `done`, if there was one, waking what it reached, and take the next brick; none when all is at rest.
+    std::optional<Taken> next(unsigned thread, const Taken *done, const Visit<Word> *visit) {
+        std::unique_lock lock(mutex_);
+        if (done != nullptr) publish(thread, *done, *visit);
+        for (;;) {
+            if (stopped_) return std::nullopt;
+            if (auto taken = take(thread)) {
+                if (idle_ > 0 && !heap_.empty()) changed_.notify_one();
+                return taken;
+            }
+            if (running_ == 0) {
+                changed_.notify_all();
+                return std::nullopt;
+            }
+            ++idle_;
+            changed_.wait(lock);
+            --idle_;
+        }
+    }
+
+    // Make every thread's next() return none: a visit has failed or the caller stops.
+    void stop() {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+        changed_.notify_all();
+    }
+
+    uint64_t visits() const { return visits_; }
+
+private:
+    static constexpr uint64_t kNotQueued = std::numeric_limits<uint64_t>::max();
+    struct State {
+        Work work;
+        uint64_t bucket = kNotQueued;
+    };
+    struct Entry {
+        uint64_t bucket, arrival;
+        uint32_t brick;
+        bool operator<(const Entry &other) const { // std::push_heap keeps the largest on top
+            return bucket != other.bucket ? bucket > other.bucket : arrival > other.arrival;
+        }
+    };
+    // What a thread is visiting, and the entries that had to wait for it.
+    struct Slot {
+        bool busy = false;
+        Place place;
+        std::vector<Entry> waiting;
+    };
+
+    void push(const Entry &entry) {
+        heap_.push_back(entry);
+        std::push_heap(heap_.begin(), heap_.end());
+    }
+
+    std::optional<Taken> take(unsigned thread) {
+        while (!heap_.empty()) {
+            std::pop_heap(heap_.begin(), heap_.end());
+            const Entry entry = heap_.back();
+            heap_.pop_back();
+            State &s = state_[entry.brick];
+            if (s.bucket != entry.bucket) continue; // a smaller key has taken its place
+            const Place place = store_.place(entry.brick);
+            if (Slot *neighbour = adjacent_visit(place)) {
+                neighbour->waiting.push_back(entry);
+                continue;
+            }
+            const Taken taken{entry.brick, place, s.work};
+            s = State{};
+            slot_[thread].busy = true;
+            slot_[thread].place = place;
+            ++running_;
+            ++visits_;
+            return taken;
+        }
+        return std::nullopt;
+    }
+
+    Slot *adjacent_visit(const Place &place) {
+        for (Slot &slot : slot_)
+            if (slot.busy && adjacent(slot.place, place)) return &slot;
+        return nullptr;
+    }
+
+    void publish(unsigned thread, const Taken &done, const Visit<Word> &visit) {
+        unsigned number = 0;
+        for (int dz = -1; dz <= 1; ++dz)
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx, ++number) {
+                    const Wake<Word> &wake = visit.wake[number];
+                    if (wake.rows == 0) continue;
+                    const size_t brick = store_.at({done.place.x + dx, done.place.y + dy, done.place.z + dz});
+                    add(brick, Work{wake.rows}, wake.key);
+                }
+        Slot &slot = slot_[thread];
+        for (const Entry &entry : slot.waiting) push(entry);
+        slot.waiting.clear();
+        slot.busy = false;
+        --running_;
+    }
+
+    const Store<Word> &store_;
+    unsigned width_bits_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<State> state_;
+    std::vector<Slot> slot_;
+    std::vector<Entry> heap_;
+    uint64_t arrivals_ = 0, visits_ = 0;
+    unsigned running_ = 0, idle_ = 0;
+    bool stopped_ = false;
+};
+
+} // namespace locus::bricks
