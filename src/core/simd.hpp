@@ -14,8 +14,8 @@ bool simd_available(Simd target) noexcept;
 // The widest available one.
 Simd simd_best() noexcept;
 
-// `requested`, or the widest one for `automatic`. Throws LOCUS_E_UNSUPPORTED if it is not available, LOCUS_E_ARGUMENT if
-// the number is unknown.
+// `requested`, or the widest one for `automatic`. Throws LOCUS_E_UNSUPPORTED if it is not available, LOCUS_E_ARGUMENT
+// if the number is unknown.
 Simd simd_choose(uint32_t requested);
 
 const char *simd_name(Simd target) noexcept;

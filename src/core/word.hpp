@@ -13,14 +13,17 @@
 
 namespace locus {
 
-// How a word is split. The infinite distance is a quarter of what the distance bits hold: infinity + infinity +
-// infinity still does not wrap, so solvers may add weights to it without a branch.
+// How a word is split. Three infinite words can be added without wrapping, so solvers may add weights to infinity
+// without a branch; in 64 bits they do not reach the sign either, because signed minima are the fast ones, and the
+// infinite distance converts exactly to and from double.
 struct WordLayout {
     uint32_t bits = 64;       // 32 or 64
     uint32_t label_bits = 16; // 0..24
 
     // The distance of an unreached voxel; its word is pack(infinity(), 0), the largest word that a solve leaves behind.
-    LOCUS_HD constexpr uint64_t infinity() const { return uint64_t{1} << (bits - label_bits - 2); }
+    LOCUS_HD constexpr uint64_t infinity() const {
+        return uint64_t{1} << (bits == 32 ? 30 - label_bits : std::min(61 - label_bits, 51u));
+    }
     LOCUS_HD constexpr uint64_t max_exact() const { return infinity() - 1; }
     // The largest rounded number (the weight of an edge, or one voxel's share of it). Up to here float, for 32-bit
     // words, and double, for 64-bit ones, round to integers by the addition of one constant; see steps() in

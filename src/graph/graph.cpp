@@ -38,7 +38,6 @@ void check_options(const locus_graph_options &options) {
             ", outside (0, 0.5]");
     require(options.backend <= LOCUS_BACKEND_CUDA, "options->backend is ", options.backend,
             ", not one of LOCUS_BACKEND_");
-    require(options.simd <= LOCUS_SIMD_NEON, "options->simd is ", options.simd, ", not one of LOCUS_SIMD_");
 }
 
 uint32_t label_bits(const locus_graph_options &options) {
@@ -64,8 +63,7 @@ Graph::Graph(const locus_graph_options &options, const float *material)
     check_options(options);
     if (options.backend == LOCUS_BACKEND_CUDA)
         fail(LOCUS_E_UNSUPPORTED, "options->backend is LOCUS_BACKEND_CUDA: this library has no CUDA backend");
-    if (options.simd != LOCUS_SIMD_AUTO && options.simd != LOCUS_SIMD_SCALAR)
-        fail(LOCUS_E_UNSUPPORTED, "options->simd is ", options.simd, ": this library has no such instruction set");
+    simd_ = simd_choose(options.simd);
     const float nothing = std::numeric_limits<float>::quiet_NaN();
     materials_.assign(grid_.voxels(), nothing);
     if (material != nullptr)
@@ -276,7 +274,7 @@ locus_graph_info Graph::info() const {
     info.max_exact = layout_.max_exact();
     info.max_distance = static_cast<double>(info.max_exact) / scale_;
     const double low = operand_.rule == LOCUS_WEIGHT_UNIFORM || range_.empty() ? 1 : range_.low;
-    const double arithmetic = layout_.bits == 32 ? 0x1p-22 : 0x1p-51;
+    const double arithmetic = layout_.bits == 32 ? 0x1p-22 : 0x1p-23; // of an operand that is an inverse, at least
     const double p = options_.stiffness_exponent;
     const bool tabled = operand_.rule == LOCUS_WEIGHT_MEAN_STIFFNESS && p != 1;
     info.weight_error = rounding_error(smallest_steps(low)) + arithmetic + (tabled ? p * (p + 1) / 8 * 0x1p-24 : 0);
@@ -284,7 +282,7 @@ locus_graph_info Graph::info() const {
     info.overflow_free = longest_path_ <= layout_.max_exact() ? 1 : 0;
     info.threads = threads_;
     info.backend = LOCUS_BACKEND_CPU;
-    info.simd = LOCUS_SIMD_SCALAR;
+    info.simd = static_cast<uint32_t>(simd_);
     return info;
 }
 

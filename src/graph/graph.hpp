@@ -2,6 +2,7 @@
 // edits.
 #pragma once
 
+#include "core/simd.hpp"
 #include "core/word.hpp"
 #include "graph/grid.hpp"
 #include "graph/quantize.hpp"
@@ -43,6 +44,7 @@ public:
     const WordLayout &layout() const { return layout_; }
     double scale() const { return scale_; }
     uint32_t threads() const { return threads_; }
+    Simd simd() const { return simd_; }
     uint32_t rule() const { return operand_.rule; }
     const Operand &operand() const { return operand_; }
     const Weights &weights() const { return weights_; }
@@ -116,6 +118,7 @@ private:
     double scale_ = 0;
     double tolerance_ = 0; // the relative rounding error that edits may come to
     uint32_t threads_;
+    Simd simd_ = Simd::scalar;
     Range range_; // of everything the graph holds or held, and of what was declared
     Weights weights_;
     std::unique_ptr<const InversePower<float>> power32_;

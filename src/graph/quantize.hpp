@@ -3,7 +3,7 @@
 // - Arithmetic is float for 32-bit words and double for 64-bit words, in the order written here, each operation
 // correctly
 //   rounded and none fused with another (compile with -ffp-contract=off, nvcc with -fmad=false).
-// - A voxel enters as its operand: its compliance (mean and max rule), 1 (uniform rule) or its stiffness (mean
+// - A voxel enters as its operand, a float: its compliance (mean and max rule), 1 (uniform rule) or its stiffness (mean
 // stiffness).
 // - steps() rounds half to even and never gives 0: two voxels joined by a free edge would support each other after a
 // cut.
@@ -41,9 +41,10 @@ struct Operand {
     uint32_t rule;     // LOCUS_WEIGHT_
     uint32_t material; // LOCUS_MATERIAL_
 
+    // A stiffness below the smallest normal number counts as zero: its inverse may be infinite.
     LOCUS_HD bool passable(float value) const {
         if (material == LOCUS_MATERIAL_STIFFNESS)
-            return value > 0;
+            return value >= std::numeric_limits<float>::min();
         return value >= 0 && value <= std::numeric_limits<float>::max();
     }
     template <typename R>
@@ -54,7 +55,7 @@ struct Operand {
             return R(1);
         const bool wants_stiffness = rule == LOCUS_WEIGHT_MEAN_STIFFNESS;
         const bool has_stiffness = material == LOCUS_MATERIAL_STIFFNESS;
-        return wants_stiffness == has_stiffness ? static_cast<R>(value) : R(1) / static_cast<R>(value);
+        return static_cast<R>(wants_stiffness == has_stiffness ? value : 1.0f / value);
     }
 };
 

@@ -1,5 +1,5 @@
-// Weights edge by edge, for rules that do not separate and for bricks with cut edges: each of the 26 neighbours' words plus the
-// weight of the edge to it. Included by the same rules as pull-inl.hpp, after it.
+// Weights edge by edge, for rules that do not separate and for bricks with cut edges: each of the 26 neighbours' words
+// plus the weight of the edge to it. Included by the same rules as pull-inl.hpp, after it.
 
 namespace locus::bricks::LOCUS_LANES_NAMESPACE {
 
@@ -46,7 +46,8 @@ public:
         const Row to = L::operand(this->own_[row].operand);
         Row best = this->fill_;
         for (int dz = -1; dz <= 1; ++dz)
-            for (int dy = -1; dy <= 1; ++dy) best = L::min(best, from(padded(row), to, dy, dz, blocked));
+            for (int dy = -1; dy <= 1; ++dy)
+                best = L::min(best, from(padded(row), to, dy, dz, blocked));
         return passable(to, best);
     }
 
@@ -56,7 +57,8 @@ public:
         const Row to = L::operand(there.operand);
         Row best = this->fill_;
         for (int t = -1; t <= 1; ++t) {
-            if (dy != 0 && dz != 0 && t != 0) continue;
+            if (dy != 0 && dz != 0 && t != 0)
+                continue;
             best = L::min(best, from(s, to, dy != 0 ? -dy : t, dz != 0 ? -dz : t, nullptr));
         }
         return passable(to, best);
@@ -65,7 +67,8 @@ public:
 private:
     // An impassable voxel takes nothing. Infinite compliances see to that themselves, stiffnesses of zero do not.
     LOCUS_INLINE Row passable(Row to, Row best) const {
-        if constexpr (std::is_same_v<Weight, StiffnessWeight<Word>>) return L::where_positive(to, best, this->fill_);
+        if constexpr (std::is_same_v<Weight, StiffnessWeight<Word>>)
+            return L::where_positive(to, best, this->fill_);
         return best;
     }
 
@@ -78,14 +81,18 @@ private:
         const unsigned k = (dy != 0 ? 2u : 0u) | (dz != 0 ? 4u : 0u);
         const unsigned middle = neighbour_number(0, dy, dz);
         Row best = offered(L::left(word, this->fill_), L::left(operand, operand), to, k | 1u, middle - 1, blocked);
-        best = L::min(best, offered(L::right(word, this->fill_), L::right(operand, operand), to, k | 1u, middle + 1, blocked));
-        if (k != 0) best = L::min(best, offered(word, operand, to, k, middle, blocked));
+        best = L::min(
+            best, offered(L::right(word, this->fill_), L::right(operand, operand), to, k | 1u, middle + 1, blocked));
+        if (k != 0)
+            best = L::min(best, offered(word, operand, to, k, middle, blocked));
         return best;
     }
 
-    LOCUS_INLINE Row offered(Row word, Row operand, Row to, unsigned k, unsigned number, const uint16_t *blocked) const {
+    LOCUS_INLINE Row offered(Row word, Row operand, Row to, unsigned k, unsigned number,
+                             const uint16_t *blocked) const {
         const Row sum = L::add(word, Weight::of(this->m_, operand, to, k));
-        if (blocked == nullptr || blocked[number] == 0) return sum;
+        if (blocked == nullptr || blocked[number] == 0)
+            return sum;
         return L::blocked(sum, blocked[number], this->fill_);
     }
 };

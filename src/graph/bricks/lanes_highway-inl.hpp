@@ -1,8 +1,8 @@
-// The operations on a row of sixteen words, by Highway, for the target being compiled. No include guard: once per target.
+// The operations on a row of sixteen words, by Highway, for the target being compiled. No include guard: once per
+// target.
 
 namespace locus::bricks::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
 
 template <typename Word>
 struct Lanes {
@@ -20,23 +20,28 @@ struct Lanes {
     static HWY_INLINE const Lane *lanes(const Word *p) { return reinterpret_cast<const Lane *>(p); }
     static HWY_INLINE Row all(Word w) {
         Row r;
-        for (unsigned p = 0; p < kParts; ++p) r.part[p] = hn::Set(D(), static_cast<Lane>(w));
+        for (unsigned p = 0; p < kParts; ++p)
+            r.part[p] = hn::Set(D(), static_cast<Lane>(w));
         return r;
     }
     static HWY_INLINE Row load(const Word *from) {
         Row r;
-        for (unsigned p = 0; p < kParts; ++p) r.part[p] = hn::Load(D(), lanes(from) + p * kPer);
+        for (unsigned p = 0; p < kParts; ++p)
+            r.part[p] = hn::Load(D(), lanes(from) + p * kPer);
         return r;
     }
     static HWY_INLINE void store(Row a, Word *to) {
-        for (unsigned p = 0; p < kParts; ++p) hn::Store(a.part[p], D(), reinterpret_cast<Lane *>(to) + p * kPer);
+        for (unsigned p = 0; p < kParts; ++p)
+            hn::Store(a.part[p], D(), reinterpret_cast<Lane *>(to) + p * kPer);
     }
     static HWY_INLINE Row add(Row a, Row b) {
-        for (unsigned p = 0; p < kParts; ++p) a.part[p] = hn::Add(a.part[p], b.part[p]);
+        for (unsigned p = 0; p < kParts; ++p)
+            a.part[p] = hn::Add(a.part[p], b.part[p]);
         return a;
     }
     static HWY_INLINE Row min(Row a, Row b) {
-        for (unsigned p = 0; p < kParts; ++p) a.part[p] = hn::Min(a.part[p], b.part[p]);
+        for (unsigned p = 0; p < kParts; ++p)
+            a.part[p] = hn::Min(a.part[p], b.part[p]);
         return a;
     }
     // The operands of a row's voxels as the bits of Real numbers.
@@ -64,12 +69,15 @@ struct Lanes {
     // Operand times factor, or factor over operand, in steps shifted to the distance's place.
     static HWY_INLINE Row share(Row operand, Real<Word> factor, Real<Word> low, Real<Word> cap, uint32_t label_bits) {
         for (unsigned p = 0; p < kParts; ++p)
-            operand.part[p] = steps(hn::Mul(hn::BitCast(R(), operand.part[p]), hn::Set(R(), factor)), low, cap, label_bits);
+            operand.part[p] =
+                steps(hn::Mul(hn::BitCast(R(), operand.part[p]), hn::Set(R(), factor)), low, cap, label_bits);
         return operand;
     }
-    static HWY_INLINE Row quotient(Row operand, Real<Word> factor, Real<Word> low, Real<Word> cap, uint32_t label_bits) {
+    static HWY_INLINE Row quotient(Row operand, Real<Word> factor, Real<Word> low, Real<Word> cap,
+                                   uint32_t label_bits) {
         for (unsigned p = 0; p < kParts; ++p)
-            operand.part[p] = steps(hn::Div(hn::Set(R(), factor), hn::BitCast(R(), operand.part[p])), low, cap, label_bits);
+            operand.part[p] =
+                steps(hn::Div(hn::Set(R(), factor), hn::BitCast(R(), operand.part[p])), low, cap, label_bits);
         return operand;
     }
     // `a` where the operand is above zero, `otherwise` elsewhere.
@@ -94,7 +102,8 @@ struct Lanes {
     // Lane i of the result is lane i - 1, or i + 1, of `a`; what comes in from outside is `fill`.
     static HWY_INLINE Row left(Row a, Row fill) {
         Row r;
-        for (unsigned p = 0; p < kParts; ++p) r.part[p] = after(p == 0 ? fill.part[0] : a.part[p - 1], a.part[p]);
+        for (unsigned p = 0; p < kParts; ++p)
+            r.part[p] = after(p == 0 ? fill.part[0] : a.part[p - 1], a.part[p]);
         return r;
     }
     static HWY_INLINE Row right(Row a, Row fill) {
@@ -164,7 +173,8 @@ private:
             return hn::CombineShiftRightBytes<sizeof(Lane)>(d, hn::ConcatLowerUpper(d, b, a), a);
         } else {
             const auto turn = hn::IndicesFromVec(d, hn::And(hn::Iota(d, 1), hn::Set(d, kPer - 1)));
-            return hn::IfThenElse(hn::FirstN(d, kPer - 1), hn::TableLookupLanes(a, turn), hn::TableLookupLanes(b, turn));
+            return hn::IfThenElse(hn::FirstN(d, kPer - 1), hn::TableLookupLanes(a, turn),
+                                  hn::TableLookupLanes(b, turn));
         }
     }
 };

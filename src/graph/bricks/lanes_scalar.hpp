@@ -1,4 +1,5 @@
-// The operations on a row of sixteen words as plain loops: the reference for the SIMD ones, and all there is without Highway.
+// The operations on a row of sixteen words as plain loops: the reference for the SIMD ones, and all there is without
+// Highway.
 #pragma once
 
 #include "graph/bricks/visit.hpp"
@@ -20,7 +21,8 @@ struct Lanes {
     template <typename F>
     static Row each(F &&f) {
         Row r;
-        for (unsigned i = 0; i < kLanes; ++i) r.lane[i] = f(i);
+        for (unsigned i = 0; i < kLanes; ++i)
+            r.lane[i] = f(i);
         return r;
     }
     static Row all(Word w) {
@@ -30,7 +32,8 @@ struct Lanes {
         return each([&](unsigned i) { return from[i]; });
     }
     static void store(const Row &a, Word *to) {
-        for (unsigned i = 0; i < kLanes; ++i) to[i] = a.lane[i];
+        for (unsigned i = 0; i < kLanes; ++i)
+            to[i] = a.lane[i];
     }
     static Row add(const Row &a, const Row &b) {
         return each([&](unsigned i) { return static_cast<Word>(a.lane[i] + b.lane[i]); });
@@ -67,7 +70,8 @@ struct Lanes {
     }
     static uint32_t differ(const Row &a, const Row &b) {
         uint32_t bits = 0;
-        for (unsigned i = 0; i < kLanes; ++i) bits |= uint32_t{a.lane[i] != b.lane[i]} << i;
+        for (unsigned i = 0; i < kLanes; ++i)
+            bits |= uint32_t{a.lane[i] != b.lane[i]} << i;
         return bits;
     }
     static Row where_differ(const Row &a, const Row &b, const Row &otherwise) {

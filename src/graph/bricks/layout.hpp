@@ -1,5 +1,6 @@
-// Bricks: the grid cut into blocks of 14 x 8 x 8 voxels. A row along x is 16 words: lanes 1 to 14 are the brick's own voxels,
-// lanes 0 and 15 copies of the x-neighbours' edge voxels, so that one row is one vector and lane shifts never leave it.
+// Bricks: the grid cut into blocks of 14 x 8 x 8 voxels. A row along x is 16 words: lanes 1 to 14 are the brick's own
+// voxels, lanes 0 and 15 copies of the x-neighbours' edge voxels, so that one row is one vector and lane shifts never
+// leave it.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +12,9 @@
 
 namespace locus::bricks {
 
-inline constexpr unsigned kLanes = 16;     // words in a row
-inline constexpr unsigned kWidth = 14;     // own voxels in a row
-inline constexpr unsigned kSide = 8;       // rows in y and in z
+inline constexpr unsigned kLanes = 16; // words in a row
+inline constexpr unsigned kWidth = 14; // own voxels in a row
+inline constexpr unsigned kSide = 8;   // rows in y and in z
 inline constexpr unsigned kRows = kSide * kSide;
 inline constexpr uint32_t kOwnLanes = 0x7FFE;
 
@@ -35,12 +36,13 @@ struct Brick {
 
 // The grid in bricks.
 struct Layout {
-    std::array<uint64_t, 3> dims{};  // voxels
+    std::array<uint64_t, 3> dims{}; // voxels
     std::array<uint32_t, 3> bricks{};
 
     explicit Layout(const std::array<uint64_t, 3> &voxels) : dims(voxels) {
         constexpr std::array<uint64_t, 3> size = {kWidth, kSide, kSide};
-        for (size_t a = 0; a < 3; ++a) bricks[a] = static_cast<uint32_t>((dims[a] + size[a] - 1) / size[a]);
+        for (size_t a = 0; a < 3; ++a)
+            bricks[a] = static_cast<uint32_t>((dims[a] + size[a] - 1) / size[a]);
     }
     size_t count() const { return size_t{bricks[0]} * bricks[1] * bricks[2]; }
     size_t index(uint32_t bx, uint32_t by, uint32_t bz) const {
@@ -72,18 +74,27 @@ constexpr RowMask dilate(RowMask rows) {
 // The rows of the neighbour at (dy, dz) that touch the rows `rows` of this brick.
 constexpr RowMask touched(RowMask rows, int dy, int dz) {
     RowMask moved = dilate(rows);
-    if (dy == 0 && dz == 0) return moved;
+    if (dy == 0 && dz == 0)
+        return moved;
     // Only the border rows reach across; they land on the opposite border.
     moved = rows;
-    if (dy < 0) moved = (moved & kFirstY) << 7;
-    if (dy > 0) moved = (moved & kLastY) >> 7;
-    if (dz < 0) moved = (moved & kFirstZ) << 56;
-    if (dz > 0) moved = (moved & kLastZ) >> 56;
+    if (dy < 0)
+        moved = (moved & kFirstY) << 7;
+    if (dy > 0)
+        moved = (moved & kLastY) >> 7;
+    if (dz < 0)
+        moved = (moved & kFirstZ) << 56;
+    if (dz > 0)
+        moved = (moved & kLastZ) >> 56;
     RowMask wide = dilate(moved);
-    if (dy < 0) wide &= kLastY;
-    if (dy > 0) wide &= kFirstY;
-    if (dz < 0) wide &= kLastZ;
-    if (dz > 0) wide &= kFirstZ;
+    if (dy < 0)
+        wide &= kLastY;
+    if (dy > 0)
+        wide &= kFirstY;
+    if (dz < 0)
+        wide &= kLastZ;
+    if (dz > 0)
+        wide &= kFirstZ;
     return wide;
 }
 

@@ -1,5 +1,5 @@
-// Separable weights q_k(u) + q_k(v): the neighbour's share is added once per row and shared by all who look. A row's helper rows
-// are D + q_k, and for offsets that move along x and another axis their minimum over x - 1 and x + 1.
+// Separable weights q_k(u) + q_k(v): the neighbour's share is added once per row and shared by all who look. A row's
+// helper rows are D + q_k, and for offsets that move along x and another axis their minimum over x - 1 and x + 1.
 // Included by the same rules as pull-inl.hpp, after it.
 
 namespace locus::bricks::LOCUS_LANES_NAMESPACE {
@@ -27,19 +27,23 @@ class MeanVisit : public PullVisit<Word, MeanVisit<Word, Isotropic>> {
 public:
     // A visit with much to do builds all helper rows in one sweep, one with little those it needs.
     LOCUS_INLINE explicit MeanVisit(Visit<Word> &visit) : Base(visit) {
-        if (__builtin_popcountll(visit.active) < 8) return;
+        if (__builtin_popcountll(visit.active) < 8)
+            return;
         for (unsigned pz = 0; pz < kPadded; ++pz) {
             ready_[pz] = (1u << kPadded) - 1;
-            for (unsigned py = 0; py < kPadded; ++py) build(py, pz);
+            for (unsigned py = 0; py < kPadded; ++py)
+                build(py, pz);
         }
     }
 
     // The helper rows of the 3 x 3 rows around `row`.
     LOCUS_INLINE void prepare(unsigned row) {
         const unsigned y = row % kSide, z = row / kSide;
-        if (((ready_[z] & ready_[z + 1] & ready_[z + 2]) >> y & 7u) == 7u) return;
+        if (((ready_[z] & ready_[z + 1] & ready_[z + 2]) >> y & 7u) == 7u)
+            return;
         for (unsigned pz = z; pz < z + 3; ++pz)
-            for (unsigned py = y; py < y + 3; ++py) need(py + kPadded * pz);
+            for (unsigned py = y; py < y + 3; ++py)
+                need(py + kPadded * pz);
     }
 
     LOCUS_INLINE Row pull(unsigned row) const {
@@ -63,9 +67,7 @@ public:
         }
     }
 
-    LOCUS_INLINE void stored(unsigned row, Row now) {
-        rebuild(padded(row), now, shares(this->own_[row].operand));
-    }
+    LOCUS_INLINE void stored(unsigned row, Row now) { rebuild(padded(row), now, shares(this->own_[row].operand)); }
 
     // What the rows of this brick that face row `row` of the brick across (dy, dz) offer to it.
     LOCUS_INLINE Row offer(const BrickRow<Word> &to, unsigned row, int dy, int dz) {
@@ -112,7 +114,8 @@ private:
 
     LOCUS_INLINE void need(unsigned s) {
         const unsigned py = s % kPadded, pz = s / kPadded;
-        if ((ready_[pz] >> py & 1u) == 0) build_late(py, pz);
+        if ((ready_[pz] >> py & 1u) == 0)
+            build_late(py, pz);
     }
     LOCUS_NOINLINE void build_late(unsigned py, unsigned pz) {
         ready_[pz] = static_cast<uint16_t>(ready_[pz] | 1u << py);

@@ -1,6 +1,7 @@
-// The visit of a brick by pulling: a row takes the smallest of its own words and what its 26 neighbours offer, sixteen voxels at a
-// time. What a neighbour offers is the business of `Rule` (mean-inl.hpp, edge-inl.hpp). Compiled once per instruction set over
-// its row operations `Lanes`, in its own namespace; hence no include guard and no includes of the standard library.
+// The visit of a brick by pulling: a row takes the smallest of its own words and what its 26 neighbours offer, sixteen
+// voxels at a time. What a neighbour offers is the business of `Rule` (mean-inl.hpp, edge-inl.hpp). Compiled once per
+// instruction set over its row operations `Lanes`, in its own namespace; hence no include guard and no includes of the
+// standard library.
 
 namespace locus::bricks::LOCUS_LANES_NAMESPACE {
 
@@ -16,7 +17,8 @@ class PullVisit {
 public:
     LOCUS_INLINE void run() {
         // Alternating directions carry a change far within one pass, whichever way it goes.
-        for (bool up = true; v_.active != 0; up = !up) up ? ascend() : descend();
+        for (bool up = true; v_.active != 0; up = !up)
+            up ? ascend() : descend();
         reach_out();
     }
 
@@ -57,7 +59,8 @@ private:
         }
     }
 
-    // Lanes 0 and 15 belong to the x-neighbours: they are not stored, but where they would improve, that neighbour is woken.
+    // Lanes 0 and 15 belong to the x-neighbours: they are not stored, but where they would improve, that neighbour is
+    // woken.
     LOCUS_INLINE void update(unsigned row) {
         const RowMask bit = RowMask{1} << row;
         v_.active &= ~bit;
@@ -66,30 +69,38 @@ private:
         const Row old = L::load(own_[row].word);
         const Row best = L::min(rule().pull(row), old);
         const uint32_t better = L::differ(best, old);
-        if (better == 0) return;
-        if ((better & ~kOwnLanes) != 0) wake_beside(bit, better, best);
+        if (better == 0)
+            return;
+        if ((better & ~kOwnLanes) != 0)
+            wake_beside(bit, better, best);
         const uint32_t own = better & kOwnLanes;
-        if (own == 0) return;
+        if (own == 0)
+            return;
         const Row now = L::inner(best, old);
         L::store(now, own_[row].word);
         rule().stored(row, now);
         v_.changed |= bit;
-        if ((own & 2u) != 0) v_.changed_first |= bit;
-        if ((own & 0x4000u) != 0) v_.changed_last |= bit;
+        if ((own & 2u) != 0)
+            v_.changed_first |= bit;
+        if ((own & 0x4000u) != 0)
+            v_.changed_last |= bit;
         v_.active |= dilate(bit);
     }
 
     LOCUS_INLINE void wake_beside(RowMask bit, uint32_t better, Row best) {
         alignas(64) Word word[kLanes];
         L::store(best, word);
-        if ((better & 1u) != 0) wake(neighbour_number(-1, 0, 0), bit, word[0]);
-        if ((better & 0x8000u) != 0) wake(neighbour_number(1, 0, 0), bit, word[kLanes - 1]);
+        if ((better & 1u) != 0)
+            wake(neighbour_number(-1, 0, 0), bit, word[0]);
+        if ((better & 0x8000u) != 0)
+            wake(neighbour_number(1, 0, 0), bit, word[kLanes - 1]);
     }
 
     LOCUS_INLINE void wake(unsigned neighbour, RowMask rows, Word key) {
         Wake<Word> &w = v_.wake[neighbour];
         w.rows |= rows;
-        if (key < w.key) w.key = key;
+        if (key < w.key)
+            w.key = key;
     }
 
     // Where rows on a border in y or z changed: which rows across it would improve? Only those are woken.
@@ -97,9 +108,11 @@ private:
         const RowMask changed = v_.changed;
         for (int dz = -1; dz <= 1; ++dz)
             for (int dy = -1; dy <= 1; ++dy) {
-                if (dy == 0 && dz == 0) continue;
+                if (dy == 0 && dz == 0)
+                    continue;
                 const RowMask rows = touched(changed, dy, dz);
-                if (rows != 0) look_across(rows, dy, dz);
+                if (rows != 0)
+                    look_across(rows, dy, dz);
             }
     }
 
@@ -113,20 +126,28 @@ private:
             const Row old = L::load(there.row[row].word);
             const Row best = L::min(rule().offer(there.row[row], row, dy, dz), old);
             const uint32_t better = L::differ(best, old);
-            if (better == 0) continue;
+            if (better == 0)
+                continue;
             keys = L::min(keys, L::where_differ(best, old, none));
             const RowMask bit = RowMask{1} << row;
-            if ((better & kOwnLanes) != 0) inner |= bit;
-            if ((better & 1u) != 0) first |= bit;
-            if ((better & 0x8000u) != 0) last |= bit;
+            if ((better & kOwnLanes) != 0)
+                inner |= bit;
+            if ((better & 1u) != 0)
+                first |= bit;
+            if ((better & 0x8000u) != 0)
+                last |= bit;
         }
-        if ((first | inner | last) == 0) return;
+        if ((first | inner | last) == 0)
+            return;
         alignas(64) Word word[kLanes];
         L::store(keys, word);
-        if (first != 0) wake(neighbour_number(-1, dy, dz), first, word[0]);
-        if (last != 0) wake(neighbour_number(1, dy, dz), last, word[kLanes - 1]);
+        if (first != 0)
+            wake(neighbour_number(-1, dy, dz), first, word[0]);
+        if (last != 0)
+            wake(neighbour_number(1, dy, dz), last, word[kLanes - 1]);
         if (inner != 0)
-            for (unsigned i = 1; i <= kWidth; ++i) wake(neighbour_number(0, dy, dz), inner, word[i]);
+            for (unsigned i = 1; i <= kWidth; ++i)
+                wake(neighbour_number(0, dy, dz), inner, word[i]);
     }
 };
 

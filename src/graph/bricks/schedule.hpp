@@ -1,7 +1,7 @@
-// Which brick is visited next, and by which thread. Bricks wait in a heap by (smallest word that reaches them / width, order of
-// arrival): near enough to Dijkstra's order that few are visited in vain, coarse enough that a visit has much to do.
-// A brick is taken only while no adjacent one is being visited: a visit reads and writes nothing beyond its neighbours, so no two
-// visits touch the same memory.
+// Which brick is visited next, and by which thread. Bricks wait in a heap by (smallest word that reaches them / width,
+// order of arrival): near enough to Dijkstra's order that few are visited in vain, coarse enough that a visit has much
+// to do. A brick is taken only while no adjacent one is being visited: a visit reads and writes nothing beyond its
+// neighbours, so no two visits touch the same memory.
 #pragma once
 
 #include "graph/bricks/store.hpp"
@@ -37,19 +37,24 @@ public:
         s.work.changed_first |= work.changed_first;
         s.work.changed_last |= work.changed_last;
         const uint64_t bucket = key >> width_bits_;
-        if (bucket >= s.bucket) return;
+        if (bucket >= s.bucket)
+            return;
         s.bucket = bucket;
         push({bucket, arrivals_++, static_cast<uint32_t>(brick)});
     }
 
-    // End the visit of `done`, if there was one, waking what it reached, and take the next brick; none when all is at rest.
+    // End the visit of `done`, if there was one, waking what it reached, and take the next brick; none when all is at
+    // rest.
     std::optional<Taken> next(unsigned thread, const Taken *done, const Visit<Word> *visit) {
         std::unique_lock lock(mutex_);
-        if (done != nullptr) publish(thread, *done, *visit);
+        if (done != nullptr)
+            publish(thread, *done, *visit);
         for (;;) {
-            if (stopped_) return std::nullopt;
+            if (stopped_)
+                return std::nullopt;
             if (auto taken = take(thread)) {
-                if (idle_ > 0 && !heap_.empty()) changed_.notify_one();
+                if (idle_ > 0 && !heap_.empty())
+                    changed_.notify_one();
                 return taken;
             }
             if (running_ == 0) {
@@ -102,7 +107,8 @@ private:
             const Entry entry = heap_.back();
             heap_.pop_back();
             State &s = state_[entry.brick];
-            if (s.bucket != entry.bucket) continue; // a smaller key has taken its place
+            if (s.bucket != entry.bucket)
+                continue; // a smaller key has taken its place
             const Place place = store_.place(entry.brick);
             if (Slot *neighbour = adjacent_visit(place)) {
                 neighbour->waiting.push_back(entry);
@@ -121,7 +127,8 @@ private:
 
     Slot *adjacent_visit(const Place &place) {
         for (Slot &slot : slot_)
-            if (slot.busy && adjacent(slot.place, place)) return &slot;
+            if (slot.busy && adjacent(slot.place, place))
+                return &slot;
         return nullptr;
     }
 
@@ -131,12 +138,14 @@ private:
             for (int dy = -1; dy <= 1; ++dy)
                 for (int dx = -1; dx <= 1; ++dx, ++number) {
                     const Wake<Word> &wake = visit.wake[number];
-                    if (wake.rows == 0) continue;
+                    if (wake.rows == 0)
+                        continue;
                     const size_t brick = store_.at({done.place.x + dx, done.place.y + dy, done.place.z + dz});
                     add(brick, Work{wake.rows}, wake.key);
                 }
         Slot &slot = slot_[thread];
-        for (const Entry &entry : slot.waiting) push(entry);
+        for (const Entry &entry : slot.waiting)
+            push(entry);
         slot.waiting.clear();
         slot.busy = false;
         --running_;

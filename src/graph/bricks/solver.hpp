@@ -29,12 +29,15 @@ public:
         const auto row = static_cast<unsigned>(y % kSide + kSide * (z % kSide));
         const auto lane = static_cast<unsigned>(x % kWidth + 1);
         Word &own = store_[brick].row[row].word[lane];
-        if (word >= own) return;
+        if (word >= own)
+            return;
         own = word;
         const RowMask bit = RowMask{1} << row;
         typename Schedule<Word>::Work work{dilate(bit), bit, 0, 0};
-        if (lane == 1) work.changed_first = bit;
-        if (lane == kWidth) work.changed_last = bit;
+        if (lane == 1)
+            work.changed_first = bit;
+        if (lane == kWidth)
+            work.changed_last = bit;
         schedule_.add(brick, work, word);
     }
 
@@ -81,7 +84,8 @@ private:
     }
     void copy_lane(const Visit<Word> &visit, RowMask rows, const Place &to, unsigned from_lane, unsigned to_lane) {
         const size_t neighbour = store_.at(to);
-        if (neighbour == store_.outside()) return;
+        if (neighbour == store_.outside())
+            return;
         const Brick<Word> &own = *visit.around[4];
         Brick<Word> &other = store_[neighbour];
         for (; rows != 0; rows &= rows - 1) {

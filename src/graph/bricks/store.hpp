@@ -29,11 +29,13 @@ public:
     Brick<Word> &operator[](size_t index) { return brick_.get()[index]; }
     const Brick<Word> &operator[](size_t index) const { return brick_.get()[index]; }
 
-    // Bricks are numbered x fastest; the one after the last stands for everything outside the grid, and nothing writes to it.
+    // Bricks are numbered x fastest; the one after the last stands for everything outside the grid, and nothing writes
+    // to it.
     size_t outside() const { return count_ - 1; }
     size_t at(const Place &p) const {
         const auto in = [](int32_t i, uint32_t n) { return static_cast<uint32_t>(i) < n; };
-        if (!in(p.x, layout_.bricks[0]) || !in(p.y, layout_.bricks[1]) || !in(p.z, layout_.bricks[2])) return outside();
+        if (!in(p.x, layout_.bricks[0]) || !in(p.y, layout_.bricks[1]) || !in(p.z, layout_.bricks[2]))
+            return outside();
         return layout_.index(static_cast<uint32_t>(p.x), static_cast<uint32_t>(p.y), static_cast<uint32_t>(p.z));
     }
     Place place(size_t index) const {
@@ -44,7 +46,7 @@ public:
 
 private:
     struct Free {
-        void operator()(Brick<Word> *raw) const { ::operator delete(raw, std::align_val_t{size_t{1} << 21}); }
+        void operator()(Brick<Word> *raw) const { ::operator delete (raw, std::align_val_t{size_t{1} << 21}); }
     };
     Layout layout_;
     size_t count_;

@@ -7,7 +7,8 @@
 
 namespace locus::bricks {
 
-// Fill the z-layer of bricks `bz`: compliances from `compliance(x, y, z)`-ordered dense memory, every word to `unreached`.
+// Fill the z-layer of bricks `bz`: compliances from `compliance(x, y, z)`-ordered dense memory, every word to
+// `unreached`.
 template <typename Word>
 void import_layer(Store<Word> &store, uint32_t bz, const float *compliance, Word unreached) {
     const auto &dims = store.layout().dims;
@@ -23,8 +24,7 @@ void import_layer(Store<Word> &store, uint32_t bz, const float *compliance, Word
                     const bool in = x < dims[0] && y < dims[1] && z < dims[2];
                     const float c = in ? compliance[x + dims[0] * (y + dims[1] * z)] : -1.0f;
                     brick.row[r].word[i] = unreached;
-                    brick.row[r].operand[i] =
-                        c >= 0 ? c : std::numeric_limits<float>::infinity(); // false for NaN too
+                    brick.row[r].operand[i] = c >= 0 ? c : std::numeric_limits<float>::infinity(); // false for NaN too
                 }
             }
         }

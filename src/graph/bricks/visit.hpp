@@ -9,9 +9,9 @@ namespace locus::bricks {
 template <typename Word>
 using Real = std::conditional_t<sizeof(Word) == 4, float, double>;
 
-// How compliances become integer weights. Offsets fall into seven classes by the axes they move along: bit 0 x, bit 1 y,
-// bit 2 z. A voxel's share of an edge of class k is q_k = clamp(c * factor[k], low[k], cap) rounded to the nearest integer, ties to
-// even, all in single precision: so every instruction set gives the same bits.
+// How compliances become integer weights. Offsets fall into seven classes by the axes they move along: bit 0 x, bit 1
+// y, bit 2 z. A voxel's share of an edge of class k is q_k = clamp(c * factor[k], low[k], cap) rounded to the nearest
+// integer, ties to even, all in single precision: so every instruction set gives the same bits.
 template <typename Word>
 struct Metric {
     Real<Word> factor[8] = {};
@@ -22,8 +22,8 @@ struct Metric {
     Word infinity = 0;     // three of them do not wrap
 };
 
-// The largest power of two whose triple fits a word (63 bits of the wide one: signed comparisons are the fast ones), and whose
-// distance part single and double precision convert exactly.
+// The largest power of two whose triple fits a word (63 bits of the wide one: signed comparisons are the fast ones),
+// and whose distance part single and double precision convert exactly.
 template <typename Word>
 constexpr Word infinity_of(uint32_t label_bits) {
     constexpr uint32_t top = sizeof(Word) == 4 ? 30 : 61;
@@ -49,7 +49,7 @@ struct Blocked {
 template <typename Word>
 struct Visit {
     const Metric<Word> *metric = nullptr;
-    const Blocked *blocked = nullptr; // null: no edge of the brick is cut
+    const Blocked *blocked = nullptr;      // null: no edge of the brick is cut
     std::array<Brick<Word> *, 9> around{}; // at dx = 0: [dy + 1 + 3 * (dz + 1)], the brick itself in the middle
     RowMask active = 0;                    // rows to look at
     RowMask changed = 0;                   // in: rows changed since the last visit; out: and those this visit changed

@@ -1,5 +1,5 @@
-// The kernels for every instruction set: Highway compiles this file once per target, and kernels() chooses by a table of our own,
-// so that a handle can force its target and nothing of Highway's run-time library is linked.
+// The kernels for every instruction set: Highway compiles this file once per target, and kernels() chooses by a table
+// of our own, so that a handle can force its target and nothing of Highway's run-time library is linked.
 #include "graph/bricks/visit.hpp"
 
 #ifndef LOCUS_SIMD_SCALAR_ONLY
@@ -38,19 +38,24 @@ const KernelTable &kernels(Simd target) noexcept {
     switch (target) {
 #ifndef LOCUS_SIMD_SCALAR_ONLY
 #if (HWY_TARGETS & HWY_SSE4)
-    case Simd::sse4: return N_SSE4::table;
+    case Simd::sse4:
+        return N_SSE4::table;
 #endif
 #if (HWY_TARGETS & HWY_AVX2)
-    case Simd::avx2: return N_AVX2::table;
+    case Simd::avx2:
+        return N_AVX2::table;
 #endif
 #if (HWY_TARGETS & HWY_AVX3)
-    case Simd::avx512: return N_AVX3::table;
+    case Simd::avx512:
+        return N_AVX3::table;
 #endif
 #if (HWY_TARGETS & HWY_NEON)
-    case Simd::neon: return N_NEON::table;
+    case Simd::neon:
+        return N_NEON::table;
 #endif
 #endif
-    default: return scalar_kernels();
+    default:
+        return scalar_kernels();
     }
 }
 
