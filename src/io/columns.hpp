@@ -20,8 +20,8 @@ using Values = std::array<Value, role_count>;
 class RowParser {
 public:
     virtual ~RowParser() = default;
-    // Throws BadRow.
-    virtual void parse(std::string_view row, Values &values) = 0;
+    // True: the row held bytes that are not UTF-8, and they were replaced. Throws BadRow.
+    virtual bool parse(std::string_view row, Values &values) = 0;
 };
 
 } // namespace locus::io

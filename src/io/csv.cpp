@@ -76,7 +76,7 @@ CsvParser::CsvParser(std::string_view header, char separator, const Columns &col
     }
 }
 
-void CsvParser::parse(std::string_view row, Values &values) {
+bool CsvParser::parse(std::string_view row, Values &values) {
     values.fill(Missing{});
     std::string storage;
     bool last = false;
@@ -95,6 +95,7 @@ void CsvParser::parse(std::string_view row, Values &values) {
             values[role] = stored ? std::string_view(unquoted_[role]) : field;
         }
     }
+    return false;
 }
 
 } // namespace locus::io

@@ -10,7 +10,7 @@ public:
     // `header` is the row of column names. Throws LOCUS_E_FORMAT if one that is needed is not there.
     CsvParser(std::string_view header, char separator, const Columns &columns);
 
-    void parse(std::string_view row, Values &values) override;
+    bool parse(std::string_view row, Values &values) override;
 
     // The name of a role's column.
     const std::string &name(Role role) const { return names_[role]; }

@@ -1,6 +1,8 @@
 // The top-level members of one JSON object, without building the rest of it.
 #include "io/ndjson.hpp"
 
+#include "io/utf8.hpp"
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -97,11 +99,16 @@ private:
 
 } // namespace
 
-void JsonParser::parse(std::string_view row, Values &values) {
+bool JsonParser::parse(std::string_view row, Values &values) {
+    std::string storage;
+    const bool repaired = !valid_utf8(row);
+    if (repaired)
+        row = storage = repaired_utf8(row);
     values.fill(Missing{});
     Members members(columns_, values, texts_);
     if (!json::sax_parse(row.begin(), row.end(), &members))
         throw BadRow(members.reason());
+    return repaired;
 }
 
 } // namespace locus::io

@@ -9,7 +9,7 @@ class JsonParser : public RowParser {
 public:
     explicit JsonParser(const Columns &columns) : columns_(columns) {}
 
-    void parse(std::string_view row, Values &values) override;
+    bool parse(std::string_view row, Values &values) override;
 
 private:
     Columns columns_;

@@ -106,11 +106,13 @@ bool RecordReader::read_row(const Row &row, void *record) {
     std::string reason = row.bad;
     if (reason.empty()) {
         try {
-            parser_->parse(row.text, values_);
+            const bool repaired = parser_->parse(row.text, values_);
             const double latitude = coordinate(values_[latitude_role], names_[latitude_role], 90);
             const double longitude = coordinate(values_[longitude_role], names_[longitude_role], 180);
             const int64_t time = microseconds(values_[time_role], names_[time_role], time_unit_);
             store(record, latitude, longitude, time);
+            if (repaired)
+                ++repaired_;
             return true;
         } catch (const BadRow &bad) {
             reason = bad.what();

@@ -19,6 +19,7 @@ void RowReader::restart() {
 
 void RowReader::set_separator(char separator) {
     separator_ = separator;
+    cut_off_ = false; // the row that was seen is still in the buffer
     restart();
 }
 

@@ -61,7 +61,7 @@ TEST(Json, BadLines) {
     EXPECT_EQ(result.bad[3].second, "'lat' is 91, outside -90..90");
     EXPECT_EQ(result.bad[4].second, "not a JSON object");
     EXPECT_EQ(result.bad[5].second, "not a JSON object");
-    EXPECT_TRUE(result.bad[6].second.starts_with("not JSON at byte 27")) << result.bad[6].second;
+    EXPECT_TRUE(result.bad[6].second.starts_with("not JSON at byte 26")) << result.bad[6].second;
 }
 
 TEST(Json, NestingWithoutLimitIsNoProblem) {

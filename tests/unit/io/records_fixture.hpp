@@ -51,8 +51,9 @@ inline Result read_fd(int fd, locus_records_options options, size_t batch) {
     if (result.status != LOCUS_OK)
         result.error = locus_io_last_error();
     result.stats.struct_size = sizeof result.stats;
-    if (reader != nullptr)
+    if (reader != nullptr) {
         EXPECT_EQ(locus_records_get_stats(reader, &result.stats), LOCUS_OK);
+    }
     locus_records_close(reader);
     return result;
 }
