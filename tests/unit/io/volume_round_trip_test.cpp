@@ -28,7 +28,9 @@ void expect_same_place(const locus_volume_info &a, const locus_volume_info &b) {
 class RoundTrip : public testing::TestWithParam<std::tuple<const char *, uint32_t, uint64_t>> {};
 
 TEST_P(RoundTrip, KeepsNumbersAndPlace) {
-    const auto [ending, compression, components] = GetParam();
+    const char *ending = std::get<0>(GetParam());
+    const uint32_t compression = std::get<1>(GetParam());
+    const uint64_t components = std::get<2>(GetParam());
     const Folder folder;
     for_every_type([&]<typename T>(uint32_t type, T) {
         locus_volume_info info = make_info(7, 5, 3, type);
