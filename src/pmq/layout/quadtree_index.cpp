@@ -58,7 +58,7 @@ public:
     }
 
     void repair(Node &node, const Quadrant &quadrant, const Span &span, std::span<const Dirty> dirty) {
-        dirty = touching(dirty, span.first, span.last);
+        dirty = touching(dirty, std::min<size_t>(node.first, span.first), std::max<size_t>(node.last, span.last));
         if (dirty.empty() && node.first == span.first && node.last == span.last)
             return;
         if (!span.divided(quadrant.level) || !node.children) {
