@@ -11,13 +11,16 @@ public:
     Progress() = default;
     Progress(locus_progress_fn call, void *user) : call_(call), user_(user) {}
 
-    // Tell the caller that `fraction` of the work is done; throws LOCUS_E_STOPPED when the answer is to stop.
+    // Tell the caller that `fraction` of the current part is done; throws LOCUS_E_STOPPED when the answer is to stop.
     void report(double fraction) {
-        if (call_ == nullptr || fraction < next_)
+        if (call_ == nullptr)
             return;
-        const double bounded = fraction < 1.0 ? fraction : 1.0;
-        next_ = bounded + 1.0 / 256;
-        if (call_(first_ + bounded * (last_ - first_), user_) != 0)
+        const double whole = first_ + (fraction < 1 ? fraction : 1) * (last_ - first_);
+        const bool end = whole >= 1 && told_ < 1;
+        if (whole < told_ + 1.0 / 256 && !end)
+            return;
+        told_ = whole;
+        if (call_(whole, user_) != 0)
             fail(LOCUS_E_STOPPED, "stopped by the progress callback");
     }
 
@@ -25,17 +28,14 @@ public:
     void part(double first, double last) {
         first_ = first;
         last_ = last;
-        next_ = 0;
     }
-
-    bool wanted() const { return call_ != nullptr; }
 
 private:
     locus_progress_fn call_ = nullptr;
     void *user_ = nullptr;
     double first_ = 0;
     double last_ = 1;
-    double next_ = 0;
+    double told_ = -1;
 };
 
 } // namespace locus

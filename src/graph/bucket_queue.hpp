@@ -35,32 +35,29 @@ public:
     template <typename KeyOf>
     bool pop(std::vector<Item> &items, KeyOf &&key_of) {
         items.clear();
-        for (unsigned level = 0; level < levels; ++level) {
-            if (filled_[level] == 0)
-                continue;
+        for (;;) {
+            unsigned level = 0;
+            while (level < levels && filled_[level] == 0)
+                ++level;
+            if (level == levels)
+                return false;
             const auto digit = static_cast<unsigned>(std::countr_zero(filled_[level]));
             filled_[level] &= filled_[level] - 1;
+            last_ = first_key(level, digit);
             std::vector<Item> &bucket = buckets_[level][digit];
             if (level == 0) {
-                last_ = (last_ & ~uint64_t{63}) | digit;
                 items.swap(bucket);
                 recycle(bucket);
                 return true;
             }
-            // Everything below this level is empty: enter this bucket and spread its items over the levels below.
-            last_ = first_key(level, digit);
+            // Nothing lies below this level: spread the bucket's items over the levels below, then look again.
             std::vector<Item> coarse;
             coarse.swap(bucket);
-            for (const Item item : coarse) {
-                const uint64_t key = key_of(item);
-                if (key >= last_)
+            for (const Item item : coarse)
+                if (const uint64_t key = key_of(item); key >= last_)
                     push(key, item);
-            }
-            coarse.clear();
             recycle(coarse);
-            level = unsigned(-1); // look again from the finest level on
         }
-        return false;
     }
 
     uint64_t last() const { return last_; }

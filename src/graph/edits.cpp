@@ -11,18 +11,6 @@ namespace {
 
 constexpr size_t most_boxes = size_t{1} << 16; // a longer journal costs more than a fresh solve
 
-// Call visit(voxel, position in the box) for every voxel of a box, x fastest.
-template <typename Visit>
-void for_each(const Grid &grid, const Box &box, Visit &&visit) {
-    uint64_t position = 0;
-    for (uint64_t z = 0; z < box.extent[2]; ++z)
-        for (uint64_t y = 0; y < box.extent[1]; ++y) {
-            const uint64_t row = grid.index(box.origin[0], box.origin[1] + y, box.origin[2] + z);
-            for (uint64_t x = 0; x < box.extent[0]; ++x)
-                visit(row + x, position++);
-        }
-}
-
 // The voxel and its neighbours: what a cut of its forward edges touches.
 Box around(const Grid &grid, uint64_t voxel) {
     const auto place = grid.place(voxel);
@@ -91,16 +79,16 @@ std::optional<std::span<const Box>> Graph::edits_since(uint64_t version) const {
 
 void Graph::set_box(const Box &box, const float *values) {
     grid_.check(box);
-    for_each(grid_, box, [&](uint64_t voxel, uint64_t i) { check_value(values[i], voxel); });
+    for_each_voxel(grid_, box, [&](uint64_t voxel, uint64_t i) { check_value(values[i], voxel); });
     journal({box});
-    for_each(grid_, box, [&](uint64_t voxel, uint64_t i) { write(voxel, values[i]); });
+    for_each_voxel(grid_, box, [&](uint64_t voxel, uint64_t i) { write(voxel, values[i]); });
 }
 
 void Graph::fill_box(const Box &box, float value) {
     grid_.check(box);
     check_value(value, grid_.index(box.origin[0], box.origin[1], box.origin[2]));
     journal({box});
-    for_each(grid_, box, [&](uint64_t voxel, uint64_t) { write(voxel, value); });
+    for_each_voxel(grid_, box, [&](uint64_t voxel, uint64_t) { write(voxel, value); });
 }
 
 void Graph::set_voxels(std::span<const uint64_t> voxels, const float *values) {
@@ -126,7 +114,7 @@ void Graph::set_voxels(std::span<const uint64_t> voxels, const float *values) {
 
 void Graph::get_box(const Box &box, float *values) const {
     grid_.check(box);
-    for_each(grid_, box, [&](uint64_t voxel, uint64_t i) { values[i] = materials_[voxel]; });
+    for_each_voxel(grid_, box, [&](uint64_t voxel, uint64_t i) { values[i] = materials_[voxel]; });
 }
 
 void Graph::cut_edges(std::span<const uint64_t> voxels, std::span<const uint16_t> masks) {

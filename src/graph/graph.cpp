@@ -74,6 +74,19 @@ Graph::Graph(const locus_graph_options &options, const float *material)
     count_all();
 }
 
+Graph Graph::uniform() const {
+    locus_graph_options options = options_;
+    options.weight_rule = LOCUS_WEIGHT_UNIFORM;
+    options.word_bits = LOCUS_WORD_AUTO;
+    options.max_seeds = layout_.labels();
+    options.scale = 0;
+    options.precision = 1.0 / 256;
+    options.material_min = options.material_max = std::numeric_limits<double>::quiet_NaN();
+    Graph graph(options, materials_.data());
+    graph.cuts_ = cuts_;
+    return graph;
+}
+
 // A value's compliance; 1 where the rule asks for none.
 double Graph::compliance(float value) const {
     if (operand_.rule == LOCUS_WEIGHT_UNIFORM || operand_.rule == LOCUS_WEIGHT_CALLER)

@@ -40,6 +40,9 @@ public:
     // Checks the options and chooses word and scale; `material` as in locus_graph_create.
     Graph(const locus_graph_options &options, const float *material);
 
+    // The same voxels and cuts with weights by length alone (LOCUS_WEIGHT_UNIFORM).
+    Graph uniform() const;
+
     const Grid &grid() const { return grid_; }
     const WordLayout &layout() const { return layout_; }
     double scale() const { return scale_; }

@@ -61,6 +61,13 @@ Grid::Grid(const uint64_t (&dims)[3], const double (&spacing)[3], uint32_t conne
                 require(std::isfinite(length) && length > 0, "options->spacing is ", spacing[0], ", ", spacing[1], ", ",
                         spacing[2], ": too extreme for the length of a diagonal");
                 lengths_[kind] = length;
+                const int d[3] = {dx, dy, dz};
+                for (size_t axis = 0; axis < 3; ++axis) {
+                    if (d[axis] < 0)
+                        down_[axis] |= 1u << number;
+                    if (d[axis] > 0)
+                        up_[axis] |= 1u << number;
+                }
                 all_[number] = {dx, dy, dz, number, kind, dx + dy * row + dz * plane};
                 if (std::abs(dx) + std::abs(dy) + std::abs(dz) <= most_axes) {
                     neighbours_[used++] = all_[number];
@@ -79,19 +86,6 @@ void Grid::check(const Box &box) const {
                 axis, "] is ", box.origin[axis], " and box->extent[", axis, "] is ", box.extent[axis],
                 ": outside the grid, which has ", dims_[axis], " voxels in that direction");
     }
-}
-
-uint32_t Grid::inside(const std::array<uint64_t, 3> &place) const {
-    uint32_t mask = 0;
-    for (const Neighbour &to : neighbours()) {
-        const int d[3] = {to.dx, to.dy, to.dz};
-        bool in = true;
-        for (size_t axis = 0; axis < 3; ++axis)
-            in = in && !(d[axis] < 0 && place[axis] == 0) && !(d[axis] > 0 && place[axis] + 1 == dims_[axis]);
-        if (in)
-            mask |= 1u << to.number;
-    }
-    return mask;
 }
 
 unsigned Grid::number_between(uint64_t u, uint64_t v) const {

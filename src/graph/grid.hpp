@@ -52,7 +52,16 @@ public:
     uint32_t neighbour_mask() const { return neighbour_mask_; }
     const Neighbour &neighbour(unsigned number) const { return all_[number]; }
     // The numbers of this connectivity that stay inside the grid from (x, y, z).
-    uint32_t inside(const std::array<uint64_t, 3> &place) const;
+    uint32_t inside(const std::array<uint64_t, 3> &place) const {
+        uint32_t mask = neighbour_mask_;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            if (place[axis] == 0)
+                mask &= ~down_[axis];
+            if (place[axis] + 1 == dims_[axis])
+                mask &= ~up_[axis];
+        }
+        return mask;
+    }
     // The number of the neighbour that leads from u to v, or 26 where they are no neighbours of this connectivity.
     unsigned number_between(uint64_t u, uint64_t v) const;
 
@@ -71,9 +80,23 @@ private:
     std::array<Neighbour, 26> all_{};
     std::array<Neighbour, 26> neighbours_{};
     uint32_t neighbour_mask_ = 0;
+    std::array<uint32_t, 3> down_{}; // the neighbours that lead towards 0 along x, y and z,
+    std::array<uint32_t, 3> up_{};   // and away from it
     std::array<double, 7> lengths_{};
     double shortest_ = 0;
     double longest_ = 0;
 };
+
+// Call visit(voxel, position in the box) for every voxel of a box that lies inside the grid, x fastest.
+template <typename Visit>
+void for_each_voxel(const Grid &grid, const Box &box, Visit &&visit) {
+    uint64_t position = 0;
+    for (uint64_t z = 0; z < box.extent[2]; ++z)
+        for (uint64_t y = 0; y < box.extent[1]; ++y) {
+            const uint64_t row = grid.index(box.origin[0], box.origin[1] + y, box.origin[2] + z);
+            for (uint64_t x = 0; x < box.extent[0]; ++x)
+                visit(row + x, position++);
+        }
+}
 
 } // namespace locus::graph

@@ -53,13 +53,8 @@ class HeapEngine final : public Engine {
 public:
     uint32_t kind() const override { return LOCUS_ENGINE_HEAP; }
     Report solve(const Problem &problem, Words &words, Progress &progress) override {
-        return with_lattice(problem.graph, [&](auto &lattice) {
-            Stopwatch watch;
-            Report report = dijkstra(problem, lattice, progress);
-            report.seconds_solve = watch.lap();
-            lattice.give(words);
-            report.seconds_export = watch.lap();
-            return report;
+        return solve_on_lattice(problem, words, progress, [](const Problem &p, auto &lattice, Progress &told) {
+            return dijkstra(p, lattice, told);
         });
     }
 };

@@ -5,6 +5,7 @@
 #include "graph/engine.hpp"
 
 #include <chrono>
+#include <utility>
 #include <vector>
 
 namespace locus::graph {
@@ -185,24 +186,34 @@ inline void relax(Word word, uint64_t place, Word *words, const std::vector<Hop>
     }
 }
 
-// Build the lattice of the right types for a graph and call solve(lattice).
-template <typename Solve>
-Report with_lattice(const Graph &graph, Solve &&solve) {
+// Build the lattice of the right types for a graph and return run(lattice).
+template <typename Run>
+auto with_lattice(const Graph &graph, Run &&run) {
     const Grid &grid = graph.grid();
-    const bool small =
-        static_cast<double>(grid.nx() + 2) * static_cast<double>(grid.ny() + 2) * static_cast<double>(grid.nz() + 2) <
-        0x1p32;
-    const auto run = [&]<typename Word, typename Place>(Word, Place) {
-        Stopwatch watch;
+    const double places =
+        static_cast<double>(grid.nx() + 2) * static_cast<double>(grid.ny() + 2) * static_cast<double>(grid.nz() + 2);
+    const auto build = [&]<typename Word, typename Place>(Word, Place) {
         Lattice<Word, Place> lattice(graph);
-        const double seconds = watch.lap();
-        Report report = solve(lattice);
-        report.seconds_import += seconds;
-        return report;
+        return run(lattice);
     };
-    if (graph.layout().bits == 32)
-        return small ? run(uint32_t{}, uint32_t{}) : run(uint32_t{}, uint64_t{});
-    return small ? run(uint64_t{}, uint32_t{}) : run(uint64_t{}, uint64_t{});
+    if (places < 0x1p32)
+        return graph.layout().bits == 32 ? build(uint32_t{}, uint32_t{}) : build(uint64_t{}, uint32_t{});
+    return graph.layout().bits == 32 ? build(uint32_t{}, uint64_t{}) : build(uint64_t{}, uint64_t{});
+}
+
+// What a plain engine does: build the lattice, run method(problem, lattice, progress) on it, copy the words back.
+template <typename Method>
+Report solve_on_lattice(const Problem &problem, Words &words, Progress &progress, Method &&method) {
+    Stopwatch watch;
+    return with_lattice(problem.graph, [&](auto &lattice) {
+        const double imported = watch.lap();
+        Report report = method(problem, lattice, progress);
+        report.seconds_import = imported;
+        report.seconds_solve = watch.lap();
+        lattice.give(words);
+        report.seconds_export = watch.lap();
+        return report;
+    });
 }
 
 } // namespace locus::graph

@@ -1,0 +1,208 @@
+// The seeds of a diagram, solving it, and reading the result.
+#include "graph/diagram.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
+
+namespace locus::graph {
+
+Diagram::Diagram(std::shared_ptr<const Graph> graph, const locus_diagram_options &options)
+    : graph_(std::move(graph)), options_(options), engine_(make_engine(options.engine)) {
+    require(options.max_distance >= 0, "options->max_distance is ", options.max_distance, ", not a distance");
+    require(options.record_trace <= 1, "options->record_trace is ", options.record_trace, ", not 0 or 1");
+}
+
+uint64_t Diagram::checked_voxel(uint64_t x, uint64_t y, uint64_t z, const std::string &name) const {
+    const Grid &grid = graph_->grid();
+    require(grid.holds(x, y, z), name, " lies at (", x, ", ", y, ", ", z, "), outside the grid of ", grid.nx(), " x ",
+            grid.ny(), " x ", grid.nz(), " voxels");
+    const uint64_t voxel = grid.index(x, y, z);
+    require(graph_->passable(voxel), name, " lies at (", x, ", ", y, ", ", z, "), an impassable voxel");
+    return voxel;
+}
+
+Seed Diagram::checked(const locus_seed &seed, const std::string &name) const {
+    const std::string named = name + " (id " + std::to_string(seed.id) + ")";
+    require(seed.id != LOCUS_NO_SEED, named, " has the id LOCUS_NO_SEED, which is no seed's");
+    require(seed.fixed <= 1, named, ": fixed is ", seed.fixed, ", not 0 or 1");
+    require(std::isfinite(seed.distance) && seed.distance >= 0, named, " starts at the distance ", seed.distance,
+            ", not a finite number >= 0");
+    const uint64_t voxel = checked_voxel(seed.x, seed.y, seed.z, named);
+    const double steps = std::rint(seed.distance * graph_->scale());
+    if (!(steps <= static_cast<double>(graph_->layout().max_exact())))
+        fail(LOCUS_E_RANGE, named, " starts at the distance ", seed.distance,
+             ": the graph's words hold distances up to ",
+             static_cast<double>(graph_->layout().max_exact()) / graph_->scale());
+    return {voxel, seed.distance, static_cast<uint64_t>(steps), seed.id, 0, seed.fixed != 0};
+}
+
+size_t Diagram::position(uint32_t id, const std::string &name) const {
+    const auto found = slot_of_id_.find(id);
+    require(found != slot_of_id_.end(), name, " is ", id, ": there is no seed with this id");
+    const auto at = std::lower_bound(seeds_.begin(), seeds_.end(), found->second,
+                                     [](const Seed &seed, uint32_t slot) { return seed.slot < slot; });
+    return static_cast<size_t>(at - seeds_.begin());
+}
+
+// Close the holes that removed seeds have left; the order stays.
+void Diagram::renumber() {
+    for (size_t i = 0; i < seeds_.size(); ++i) {
+        seeds_[i].slot = static_cast<uint32_t>(i);
+        slot_of_id_.find(seeds_[i].id)->second = seeds_[i].slot;
+    }
+    next_slot_ = static_cast<uint32_t>(seeds_.size());
+}
+
+void Diagram::add_seeds(std::span<const locus_seed> seeds) {
+    const uint64_t labels = graph_->layout().labels();
+    if (seeds.size() > labels - seeds_.size())
+        fail(LOCUS_E_RANGE, "count is ", seeds.size(), ": with the ", seeds_.size(),
+             " seeds that are there more than the ", labels, " that the graph's ", graph_->layout().label_bits,
+             " label bits hold; create it with a larger options->max_seeds");
+    std::vector<Seed> added;
+    added.reserve(seeds.size());
+    std::unordered_map<uint32_t, uint32_t> ids;
+    for (size_t i = 0; i < seeds.size(); ++i) {
+        const std::string name = "seeds[" + std::to_string(i) + "]";
+        added.push_back(checked(seeds[i], name));
+        require(!slot_of_id_.contains(seeds[i].id) && ids.try_emplace(seeds[i].id, 0).second, name, " has the id ",
+                seeds[i].id, ", which is taken");
+    }
+    seeds_.reserve(seeds_.size() + added.size());
+    slot_of_id_.reserve(seeds_.size() + added.size());
+    if (added.size() > labels - next_slot_)
+        renumber();
+    uint32_t slot = next_slot_;
+    for (Seed &seed : added)
+        ids.find(seed.id)->second = seed.slot = slot++;
+    slot_of_id_.merge(ids); // hands the nodes over: nothing is allocated
+    seeds_.insert(seeds_.end(), added.begin(), added.end());
+    next_slot_ = slot;
+    if (!added.empty())
+        seeds_changed_ = true;
+}
+
+void Diagram::remove_seeds(std::span<const uint32_t> ids) {
+    std::unordered_set<uint32_t> gone;
+    for (size_t i = 0; i < ids.size(); ++i) {
+        position(ids[i], "ids[" + std::to_string(i) + "]");
+        require(gone.insert(ids[i]).second, "ids[", i, "] is ", ids[i], ", named twice");
+    }
+    if (gone.empty())
+        return;
+    for (const uint32_t id : gone)
+        slot_of_id_.erase(id);
+    std::erase_if(seeds_, [&](const Seed &seed) { return gone.contains(seed.id); });
+    seeds_changed_ = true;
+}
+
+void Diagram::move_seed(uint32_t id, uint64_t x, uint64_t y, uint64_t z) {
+    const size_t at = position(id, "id");
+    seeds_[at].voxel = checked_voxel(x, y, z, "seed " + std::to_string(id));
+    seeds_changed_ = true;
+}
+
+uint64_t Diagram::cutoff() const {
+    const double steps = std::floor(options_.max_distance * graph_->scale());
+    return steps < 0x1p63 ? static_cast<uint64_t>(steps) : UINT64_MAX;
+}
+
+void check_overflow(const Problem &problem, const Words &words, const Report &report) {
+    const Graph &graph = problem.graph;
+    if (!report.clipped || !problem.may_overflow())
+        return;
+    const uint64_t next = next_distance(graph, words);
+    if (next == UINT64_MAX || next > problem.cutoff)
+        return;
+    const auto most = static_cast<double>(graph.layout().max_exact());
+    fail(LOCUS_E_RANGE, "a voxel lies at the distance ", static_cast<double>(next) / graph.scale(),
+         " or beyond, and the graph's words of ", graph.layout().bits, " bits hold no more than ", most / graph.scale(),
+         " at the scale ", graph.scale(), "; a scale of ",
+         graph.scale() * most / static_cast<double>(graph.longest_path()),
+         graph.layout().bits == 32 ? " or 64-bit words" : "", " would do for every path");
+}
+
+void Diagram::solve(Progress &progress) {
+    if (seeds_.empty())
+        fail(LOCUS_E_STATE, "the diagram has no seeds");
+    std::vector<Source> sources;
+    sources.reserve(seeds_.size());
+    std::vector<uint32_t> positions(next_slot_, UINT32_MAX);
+    for (size_t i = 0; i < seeds_.size(); ++i) {
+        const Seed &seed = seeds_[i];
+        const auto [x, y, z] = graph_->grid().place(seed.voxel);
+        checked_voxel(x, y, z, "seed " + std::to_string(seed.id));
+        sources.push_back({seed.voxel, seed.steps, seed.slot});
+        positions[seed.slot] = static_cast<uint32_t>(i);
+    }
+    std::vector<Seed> seeds = seeds_;
+    const Problem problem{*graph_, sources, cutoff(), options_.record_trace != 0};
+    Report report;
+    try {
+        report = engine_->solve(problem, words_, progress);
+    } catch (const Error
+                 &) { // stopped, or a caller's weight out of range; where memory ran out, the old result is still there
+        solved_ = false;
+        throw;
+    }
+    solved_ = false;
+    check_overflow(problem, words_, report);
+    progress.report(1);
+    report_ = std::move(report);
+    solved_seeds_.swap(seeds);
+    position_of_slot_.swap(positions);
+    solved_version_ = graph_->version();
+    seeds_changed_ = false;
+    solved_ = true;
+}
+
+const Words &Diagram::words() const {
+    if (!solved_)
+        fail(LOCUS_E_STATE, "the diagram is not solved");
+    return words_;
+}
+
+void Diagram::labels(const Box &box, uint32_t *labels) const {
+    const WordLayout &layout = graph_->layout();
+    std::visit(
+        [&](const auto &each) {
+            for_each_voxel(graph_->grid(), box, [&](uint64_t voxel, uint64_t i) {
+                const auto word = each[voxel];
+                labels[i] =
+                    layout.reached(word) ? solved_seeds_[position_of_slot_[layout.label(word)]].id : LOCUS_NO_SEED;
+            });
+        },
+        words());
+}
+
+void Diagram::distances(const Box &box, float *distances) const {
+    const WordLayout &layout = graph_->layout();
+    std::visit(
+        [&](const auto &each) {
+            for_each_voxel(graph_->grid(), box, [&](uint64_t voxel, uint64_t i) {
+                const auto word = each[voxel];
+                distances[i] = layout.reached(word)
+                                   ? static_cast<float>(static_cast<double>(layout.distance(word)) / graph_->scale())
+                                   : std::numeric_limits<float>::infinity();
+            });
+        },
+        words());
+}
+
+void Diagram::distances_exact(const Box &box, uint64_t *distances) const {
+    const WordLayout &layout = graph_->layout();
+    std::visit(
+        [&](const auto &each) {
+            for_each_voxel(graph_->grid(), box, [&](uint64_t voxel, uint64_t i) {
+                const auto word = each[voxel];
+                distances[i] = layout.reached(word) ? layout.distance(word) : UINT64_MAX;
+            });
+        },
+        words());
+}
+
+} // namespace locus::graph
