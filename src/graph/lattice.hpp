@@ -175,12 +175,12 @@ inline void relax(Word word, uint64_t place, Word *words, const std::vector<Hop>
         if (weight == 0)
             continue;
         const Word longer = word + static_cast<Word>(weight << label_bits);
-        if (longer >= old)
-            continue;
         if (longer > limit) {
             clipped = true;
             continue;
         }
+        if (longer >= old)
+            continue;
         lowered(next, old, longer);
         words[next] = longer;
     }
