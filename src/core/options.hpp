@@ -11,10 +11,10 @@
 namespace locus {
 
 // Fill the first `size` bytes of a caller's struct with `defaults`. `first_size` is the struct's size in the release
-// that introduced it: no client can have a smaller one.
+// that introduced it: no client can have a smaller one. `name` is the parameter's in the header.
 template <typename Options>
-void init_options(Options *options, size_t size, Options defaults, size_t first_size) {
-    need(options, "options");
+void init_options(Options *options, size_t size, Options defaults, size_t first_size, const char *name = "options") {
+    need(options, name);
     require(size >= first_size, "size is ", size, ", smaller than the first release's ", first_size);
     const size_t known = std::min(size, sizeof(Options));
     defaults.struct_size = size;

@@ -57,6 +57,8 @@ static const char *lives(int count) {
     return wrong;
 }
 
+/* With a number of loads on the command line the memory is not looked at: for Valgrind, which looks itself and needs
+ * some. */
 int main(int arguments, char **argument) {
     const int loads = arguments > 1 ? atoi(argument[1]) : 200;
     const char *wrong = lives(20);
@@ -67,7 +69,7 @@ int main(int arguments, char **argument) {
         printf("%s\n", wrong);
         return 1;
     }
-    if (resident_pages() > before + 64) {
+    if (arguments == 1 && resident_pages() > before + 64) {
         printf("%d loads grew the process from %ld to %ld pages\n", loads, before, resident_pages());
         return 1;
     }
