@@ -10,7 +10,7 @@ namespace locus {
 // The calling thread's text for locus_last_error().
 ErrorText &last_error_text() noexcept;
 
-// Run `body`, which returns nothing or a status, and turn an exception into a status and an error text.
+// Run `body` and turn an exception into a status and an error text.
 template <std::invocable Body>
 locus_status boundary(const char *function, Body &&body) noexcept {
     return barrier(function, last_error_text, std::forward<Body>(body));

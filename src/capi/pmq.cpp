@@ -58,7 +58,11 @@ private:
     Selection selection_;
 };
 
-locus_status finished(bool completely) noexcept { return completely ? LOCUS_OK : LOCUS_E_STOPPED; }
+// What ran until one of the caller's callbacks stopped it.
+void finished(bool completely, const char *callbacks) {
+    if (!completely)
+        locus::fail(LOCUS_E_STOPPED, "stopped by the caller's ", callbacks);
+}
 
 template <typename T>
 void store_to(T *target, T value) noexcept {
@@ -73,10 +77,7 @@ locus_status locus_pmq_options_init(locus_pmq_options *options, size_t size) noe
 }
 
 locus_status locus_pmq_query_init(locus_pmq_query *query, size_t size) noexcept {
-    return boundary(__func__, [&] {
-        need(query, "query");
-        locus::init_options(query, size, default_query(), first_query_size);
-    });
+    return boundary(__func__, [&] { locus::init_options(query, size, default_query(), first_query_size, "query"); });
 }
 
 locus_status locus_pmq_key(double latitude, double longitude, uint64_t *key) noexcept {
@@ -101,7 +102,7 @@ locus_status locus_pmq_insert(locus_pmq *pmq, const void *records, size_t count,
     return boundary(__func__, [&] {
         need(pmq, "pmq");
         require(records != nullptr || count == 0, "records is NULL, count is ", count);
-        return finished(pmq->store.insert(static_cast<const std::byte *>(records), count, now));
+        finished(pmq->store.insert(static_cast<const std::byte *>(records), count, now), "remove or sink");
     });
 }
 
@@ -110,7 +111,7 @@ locus_status locus_pmq_sweep(locus_pmq *pmq, int64_t now, uint64_t *evicted) noe
         uint64_t number = 0;
         const bool completely = need(pmq, "pmq").store.sweep(now, number);
         store_to(evicted, number);
-        return finished(completely);
+        finished(completely, "remove or sink");
     });
 }
 
@@ -121,7 +122,7 @@ locus_status locus_pmq_erase(locus_pmq *pmq, const locus_pmq_query *query, uint6
         uint64_t number = 0;
         const bool completely = pmq->store.erase(question.selection(), number);
         store_to(erased, number);
-        return finished(completely);
+        finished(completely, "sink");
     });
 }
 
@@ -153,7 +154,7 @@ locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_query *query,
         need(pmq, "pmq");
         need(visit, "visit");
         const Question question(query);
-        return finished(locus::pmq::visit(*pmq->store.view(), question.selection(), visit, user));
+        finished(locus::pmq::visit(*pmq->store.view(), question.selection(), visit, user), "visit");
     });
 }
 
@@ -168,8 +169,8 @@ locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uin
         require(y < tiles, "y is ", y, ", zoom ", zoom, " has rows 0..", tiles - 1);
         require(log2_bins <= 8, "log2_bins is ", log2_bins, ", above 8");
         const Question question(query);
-        require(question.selection().region == nullptr,
-                "query.region is not LOCUS_REGION_ALL: a tile has its own region");
+        require(question.selection().region == nullptr, "query.region is ", query->region,
+                ", not LOCUS_REGION_ALL: a tile has its own region");
         const size_t number = size_t{1} << (2 * log2_bins);
         if (capacity < number)
             locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", number, " bins");

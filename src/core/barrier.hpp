@@ -34,16 +34,13 @@ inline locus_status status_of_current_exception(const char *function, ErrorText 
     }
 }
 
-// Run `body`, which returns nothing or a status; no exception leaves. `text` gives the calling thread's error text.
+// Run `body`; no exception leaves. `text` gives the calling thread's error text.
 template <std::invocable Body>
 locus_status barrier(const char *function, ErrorText &(*text)() noexcept, Body &&body) noexcept {
+    static_assert(std::is_void_v<std::invoke_result_t<Body>>, "a status would be lost: throw Error");
     try {
-        if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
-            body();
-            return LOCUS_OK;
-        } else {
-            return body();
-        }
+        body();
+        return LOCUS_OK;
     } catch (...) {
         return status_of_current_exception(function, text());
     }

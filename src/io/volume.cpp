@@ -53,7 +53,7 @@ locus_volume_write_options checked(const locus_volume_write_options *given) {
 } // namespace
 
 locus_status locus_volume_info_init(locus_volume_info *info, size_t size) noexcept {
-    return boundary(__func__, [&] { init_options(info, size, default_info(), info_size_0_1); });
+    return boundary(__func__, [&] { init_options(info, size, default_info(), info_size_0_1, "info"); });
 }
 
 locus_status locus_volume_read_options_init(locus_volume_read_options *options, size_t size) noexcept {

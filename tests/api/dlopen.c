@@ -34,6 +34,11 @@ static long resident_pages(void) {
 /* One life of the library, with some use of it. Returns what went wrong, NULL if nothing did. */
 static const char *one_life(void) {
     uint32_t (*version)(void) = NULL;
+    locus_status (*create)(const locus_pmq_options *, locus_pmq **) = NULL;
+    locus_status (*insert)(locus_pmq *, const void *, size_t, int64_t) = NULL;
+    void (*destroy)(locus_pmq *) = NULL;
+    locus_point32 record;
+    locus_pmq *pmq = NULL;
     void *const library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
     if (library == NULL)
         return dlerror();
@@ -42,6 +47,16 @@ static const char *one_life(void) {
         return "locus_version is missing";
     if (version() != LOCUS_VERSION)
         return "locus_version is another version";
+    FUNCTION(library, create, "locus_pmq_create");
+    FUNCTION(library, insert, "locus_pmq_insert");
+    FUNCTION(library, destroy, "locus_pmq_destroy");
+    memset(&record, 0, sizeof record);
+    if (create(NULL, &pmq) != LOCUS_OK || insert(pmq, &record, 1, 0) != LOCUS_OK)
+        return "the store does not work";
+    record.latitude = 91; /* an error text, which belongs to the thread */
+    if (insert(pmq, &record, 1, 0) != LOCUS_E_ARGUMENT)
+        return "the store takes any record";
+    destroy(pmq);
     if (dlclose(library) != 0)
         return dlerror();
     if (dlopen(LIBRARY, RTLD_NOW | RTLD_NOLOAD) != NULL)

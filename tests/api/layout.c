@@ -3,6 +3,7 @@
 #include "check.h"
 
 #include <locus/locus.h>
+#include <locus/volume.h>
 
 #include <stddef.h>
 
@@ -10,6 +11,50 @@
 #define FIELD(type, field, bytes) CHECK(offsetof(type, field) == (bytes))
 
 int main(void) {
+    SIZE(locus_seed, 40);
+    FIELD(locus_seed, x, 0);
+    FIELD(locus_seed, y, 8);
+    FIELD(locus_seed, z, 16);
+    FIELD(locus_seed, distance, 24);
+    FIELD(locus_seed, id, 32);
+    FIELD(locus_seed, fixed, 36);
+
+    SIZE(locus_diagram_options, 24);
+    FIELD(locus_diagram_options, struct_size, 0);
+    FIELD(locus_diagram_options, engine, 8);
+    FIELD(locus_diagram_options, record_trace, 12);
+    FIELD(locus_diagram_options, max_distance, 16);
+
+    SIZE(locus_diagram_stats, 96);
+    FIELD(locus_diagram_stats, struct_size, 0);
+    FIELD(locus_diagram_stats, reached, 8);
+    FIELD(locus_diagram_stats, seeds, 16);
+    FIELD(locus_diagram_stats, relaxations, 24);
+    FIELD(locus_diagram_stats, iterations, 32);
+    FIELD(locus_diagram_stats, max_exact, 40);
+    FIELD(locus_diagram_stats, max_distance, 48);
+    FIELD(locus_diagram_stats, seconds_import, 56);
+    FIELD(locus_diagram_stats, seconds_solve, 64);
+    FIELD(locus_diagram_stats, seconds_export, 72);
+    FIELD(locus_diagram_stats, bytes, 80);
+    FIELD(locus_diagram_stats, engine, 88);
+    FIELD(locus_diagram_stats, threads, 92);
+
+    SIZE(locus_cell_pair, 16);
+    FIELD(locus_cell_pair, a, 0);
+    FIELD(locus_cell_pair, b, 4);
+    FIELD(locus_cell_pair, edges, 8);
+
+    SIZE(locus_place_options, 48);
+    FIELD(locus_place_options, struct_size, 0);
+    FIELD(locus_place_options, count, 8);
+    FIELD(locus_place_options, first_id, 16);
+    FIELD(locus_place_options, lloyd_iterations, 20);
+    FIELD(locus_place_options, metric, 24);
+    FIELD(locus_place_options, reserved0, 28);
+    FIELD(locus_place_options, progress, 32);
+    FIELD(locus_place_options, progress_user, 40);
+
     SIZE(locus_graph_options, 168);
     FIELD(locus_graph_options, struct_size, 0);
     FIELD(locus_graph_options, dims, 8);
@@ -32,6 +77,7 @@ int main(void) {
     FIELD(locus_graph_options, reserved0, 148);
     FIELD(locus_graph_options, log, 152);
     FIELD(locus_graph_options, log_user, 160);
+
     SIZE(locus_graph_info, 144);
     FIELD(locus_graph_info, struct_size, 0);
     FIELD(locus_graph_info, dims, 8);
@@ -51,48 +97,11 @@ int main(void) {
     FIELD(locus_graph_info, threads, 132);
     FIELD(locus_graph_info, backend, 136);
     FIELD(locus_graph_info, simd, 140);
+
     SIZE(locus_voxel_box, 48);
     FIELD(locus_voxel_box, origin, 0);
     FIELD(locus_voxel_box, extent, 24);
-    SIZE(locus_seed, 40);
-    FIELD(locus_seed, x, 0);
-    FIELD(locus_seed, y, 8);
-    FIELD(locus_seed, z, 16);
-    FIELD(locus_seed, distance, 24);
-    FIELD(locus_seed, id, 32);
-    FIELD(locus_seed, fixed, 36);
-    SIZE(locus_diagram_options, 24);
-    FIELD(locus_diagram_options, struct_size, 0);
-    FIELD(locus_diagram_options, engine, 8);
-    FIELD(locus_diagram_options, record_trace, 12);
-    FIELD(locus_diagram_options, max_distance, 16);
-    SIZE(locus_diagram_stats, 96);
-    FIELD(locus_diagram_stats, struct_size, 0);
-    FIELD(locus_diagram_stats, reached, 8);
-    FIELD(locus_diagram_stats, seeds, 16);
-    FIELD(locus_diagram_stats, relaxations, 24);
-    FIELD(locus_diagram_stats, iterations, 32);
-    FIELD(locus_diagram_stats, max_exact, 40);
-    FIELD(locus_diagram_stats, max_distance, 48);
-    FIELD(locus_diagram_stats, seconds_import, 56);
-    FIELD(locus_diagram_stats, seconds_solve, 64);
-    FIELD(locus_diagram_stats, seconds_export, 72);
-    FIELD(locus_diagram_stats, bytes, 80);
-    FIELD(locus_diagram_stats, engine, 88);
-    FIELD(locus_diagram_stats, threads, 92);
-    SIZE(locus_cell_pair, 16);
-    FIELD(locus_cell_pair, a, 0);
-    FIELD(locus_cell_pair, b, 4);
-    FIELD(locus_cell_pair, edges, 8);
-    SIZE(locus_place_options, 48);
-    FIELD(locus_place_options, struct_size, 0);
-    FIELD(locus_place_options, count, 8);
-    FIELD(locus_place_options, first_id, 16);
-    FIELD(locus_place_options, lloyd_iterations, 20);
-    FIELD(locus_place_options, metric, 24);
-    FIELD(locus_place_options, reserved0, 28);
-    FIELD(locus_place_options, progress, 32);
-    FIELD(locus_place_options, progress_user, 40);
+
     SIZE(locus_point32, 32);
     FIELD(locus_point32, latitude, 0);
     FIELD(locus_point32, longitude, 8);
@@ -101,11 +110,13 @@ int main(void) {
     FIELD(locus_point32, application, 26);
     FIELD(locus_point32, language, 28);
     FIELD(locus_point32, spare, 30);
+
     SIZE(locus_text156, 156);
     FIELD(locus_text156, latitude, 0);
     FIELD(locus_text156, longitude, 4);
     FIELD(locus_text156, time, 8);
     FIELD(locus_text156, text, 16);
+
     SIZE(locus_pmq_options, 136);
     FIELD(locus_pmq_options, struct_size, 0);
     FIELD(locus_pmq_options, record, 8);
@@ -127,11 +138,13 @@ int main(void) {
     FIELD(locus_pmq_options, tau_leaf, 112);
     FIELD(locus_pmq_options, rho_root, 120);
     FIELD(locus_pmq_options, tau_root, 128);
+
     SIZE(locus_box, 32);
     FIELD(locus_box, south, 0);
     FIELD(locus_box, west, 8);
     FIELD(locus_box, north, 16);
     FIELD(locus_box, east, 24);
+
     SIZE(locus_pmq_query, 80);
     FIELD(locus_pmq_query, struct_size, 0);
     FIELD(locus_pmq_query, region, 8);
@@ -141,6 +154,7 @@ int main(void) {
     FIELD(locus_pmq_query, time_to, 56);
     FIELD(locus_pmq_query, filter, 64);
     FIELD(locus_pmq_query, filter_user, 72);
+
     SIZE(locus_pmq_stats, 136);
     FIELD(locus_pmq_stats, struct_size, 0);
     FIELD(locus_pmq_stats, records, 8);
@@ -159,5 +173,39 @@ int main(void) {
     FIELD(locus_pmq_stats, longest_pause_ns, 112);
     FIELD(locus_pmq_stats, density, 120);
     FIELD(locus_pmq_stats, now, 128);
+
+    SIZE(locus_volume_info, 192);
+    FIELD(locus_volume_info, struct_size, 0);
+    FIELD(locus_volume_info, dims, 8);
+    FIELD(locus_volume_info, components, 32);
+    FIELD(locus_volume_info, spacing, 40);
+    FIELD(locus_volume_info, origin, 64);
+    FIELD(locus_volume_info, direction, 88);
+    FIELD(locus_volume_info, slope, 160);
+    FIELD(locus_volume_info, intercept, 168);
+    FIELD(locus_volume_info, type, 176);
+    FIELD(locus_volume_info, file_type, 180);
+    FIELD(locus_volume_info, format, 184);
+    FIELD(locus_volume_info, big_endian, 188);
+
+    SIZE(locus_volume_read_options, 128);
+    FIELD(locus_volume_read_options, struct_size, 0);
+    FIELD(locus_volume_read_options, memory_limit, 8);
+    FIELD(locus_volume_read_options, numbers, 16);
+    FIELD(locus_volume_read_options, format, 20);
+    FIELD(locus_volume_read_options, allow_trailing, 24);
+    FIELD(locus_volume_read_options, raw_big_endian, 28);
+    FIELD(locus_volume_read_options, raw_type, 32);
+    FIELD(locus_volume_read_options, raw_interleaved, 36);
+    FIELD(locus_volume_read_options, raw_dims, 40);
+    FIELD(locus_volume_read_options, raw_components, 64);
+    FIELD(locus_volume_read_options, raw_offset, 72);
+    FIELD(locus_volume_read_options, raw_spacing, 80);
+    FIELD(locus_volume_read_options, raw_origin, 104);
+
+    SIZE(locus_volume_write_options, 16);
+    FIELD(locus_volume_write_options, struct_size, 0);
+    FIELD(locus_volume_write_options, format, 8);
+    FIELD(locus_volume_write_options, compression, 12);
     return check_result();
 }
