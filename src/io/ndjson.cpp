@@ -4,6 +4,7 @@
 #include "io/utf8.hpp"
 
 #include <algorithm>
+#define JSON_ASSERT(condition) static_cast<void>(0) // nothing in the library ends the process
 #include <nlohmann/json.hpp>
 #include <optional>
 

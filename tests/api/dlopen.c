@@ -76,7 +76,7 @@ static const char *lives(int count) {
  * some. */
 int main(int arguments, char **argument) {
     const int loads = arguments > 1 ? atoi(argument[1]) : 200;
-    const char *wrong = lives(20);
+    const char *wrong = lives(loads / 10);
     const long before = resident_pages();
     if (wrong == NULL)
         wrong = lives(loads);

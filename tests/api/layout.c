@@ -3,6 +3,7 @@
 #include "check.h"
 
 #include <locus/locus.h>
+#include <locus/records.h>
 #include <locus/volume.h>
 
 #include <stddef.h>
@@ -173,6 +174,31 @@ int main(void) {
     FIELD(locus_pmq_stats, longest_pause_ns, 112);
     FIELD(locus_pmq_stats, density, 120);
     FIELD(locus_pmq_stats, now, 128);
+
+    SIZE(locus_records_options, 80);
+    FIELD(locus_records_options, struct_size, 0);
+    FIELD(locus_records_options, record, 8);
+    FIELD(locus_records_options, format, 12);
+    FIELD(locus_records_options, time_unit, 16);
+    FIELD(locus_records_options, bad_lines, 20);
+    FIELD(locus_records_options, separator, 24);
+    FIELD(locus_records_options, max_line, 28);
+    FIELD(locus_records_options, time_column, 32);
+    FIELD(locus_records_options, latitude_column, 40);
+    FIELD(locus_records_options, longitude_column, 48);
+    FIELD(locus_records_options, text_column, 56);
+    FIELD(locus_records_options, bad_line, 64);
+    FIELD(locus_records_options, bad_line_user, 72);
+
+    SIZE(locus_records_stats, 64);
+    FIELD(locus_records_stats, struct_size, 0);
+    FIELD(locus_records_stats, records, 8);
+    FIELD(locus_records_stats, bad, 16);
+    FIELD(locus_records_stats, cut, 24);
+    FIELD(locus_records_stats, repaired, 32);
+    FIELD(locus_records_stats, line, 40);
+    FIELD(locus_records_stats, bytes_read, 48);
+    FIELD(locus_records_stats, bytes, 56);
 
     SIZE(locus_volume_info, 192);
     FIELD(locus_volume_info, struct_size, 0);

@@ -69,7 +69,7 @@ MEMCHECK_API := $(patsubst %,memcheck-%,$(filter-out api-memory,$(API_TESTS)))
 MEMCHECK_UNIT := $(UNIT_AREAS:%=memcheck-unit-%)
 .PHONY: $(MEMCHECK_API) $(MEMCHECK_UNIT)
 $(MEMCHECK_API): memcheck-api-%: $(OUT)/tests/api/%
-	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $(if $(filter dlopen,$*),,$(MEMCHECK_REACHABLE)) $< $(if $(filter dlopen,$*),20)
+	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $(if $(filter dlopen,$*),,$(MEMCHECK_REACHABLE)) $< $(if $(filter dlopen,$*),10)
 $(MEMCHECK_UNIT): memcheck-unit-%: $(OUT)/tests/unit_%
 	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $< --gtest_brief=1 --gtest_filter='$(or $(UNIT_MEMCHECK_$*),*)'
 memcheck: $(MEMCHECK_API) $(MEMCHECK_UNIT) $(MEMCHECK_RUNS) ## Valgrind over the API tests, the short unit tests, a small demo
