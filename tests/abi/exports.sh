@@ -19,7 +19,7 @@ compare() { # a file, what it is, another file, what that is
 compare exported "exported by $library" listed "listed in $map"
 compare listed "listed in $map" exported "exported by $library"
 compare listed "listed in $map" declared "declared in the headers"
-[ -n "${LOCUS_HEADERS_AHEAD:-}" ] || compare declared "declared in the headers" listed "listed in $map"
+compare declared "declared in the headers" listed "listed in $map"
 needed=$(readelf -dW "$library" | sed -nE 's/.*\(NEEDED\).*\[(.*)\]/\1/p' |
     grep -vxE "libstdc\+\+\.so\.6|libm\.so\.6|libgcc_s\.so\.1|libc\.so\.6|ld-linux.*${LOCUS_MAY_NEED:+|$LOCUS_MAY_NEED}" || true)
 [ -z "$needed" ] || { echo "$library needs other libraries:" $needed; failed=1; }

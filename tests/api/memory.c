@@ -75,7 +75,81 @@ void free(void *memory) {
         check_status(status, LOCUS_OK, #call, __FILE__, __LINE__);                                                     \
     } while (0)
 
-enum { RECORDS = 300 };
+enum { N = 6, VOXELS = N * N * N, RECORDS = 300 };
+
+static int same_seeds(const locus_diagram *diagram, size_t wanted) {
+    locus_seed seeds[8];
+    size_t count = 0;
+    return locus_diagram_get_seeds(diagram, seeds, 8, &count) == LOCUS_OK && count == wanted;
+}
+
+static const locus_voxel_box all = {{0, 0, 0}, {N, N, N}};
+
+static int same_voxels(const locus_graph *graph, float wanted) {
+    float values[VOXELS];
+    int i;
+    if (locus_graph_get_box(graph, &all, values, VOXELS) != LOCUS_OK)
+        return 0;
+    for (i = 0; i < VOXELS; i++)
+        if (values[i] != wanted)
+            return 0;
+    return 1;
+}
+
+static int same_labels(const locus_diagram *diagram, const uint32_t *wanted) {
+    uint32_t labels[VOXELS];
+    return locus_diagram_labels(diagram, NULL, labels, VOXELS) == LOCUS_OK &&
+           memcmp(labels, wanted, sizeof labels) == 0;
+}
+
+static void voxels(uint32_t engine) {
+    const uint32_t id = 3;
+    float ones[VOXELS], twos[VOXELS];
+    uint64_t indices[VOXELS];
+    uint32_t labels[VOXELS];
+    locus_seed seeds[3];
+    locus_graph_options options;
+    locus_diagram_options how;
+    locus_place_options place;
+    locus_graph *graph = NULL;
+    locus_diagram *diagram = NULL;
+    int i;
+    for (i = 0; i < VOXELS; i++) {
+        ones[i] = 1;
+        twos[i] = 2;
+        indices[i] = (uint64_t)i;
+    }
+    memset(seeds, 0, sizeof seeds);
+    for (i = 0; i < 3; i++) {
+        seeds[i].id = (uint32_t)i + 1;
+        seeds[i].x = (uint64_t)i;
+    }
+    WORKS(locus_graph_options_init(&options, sizeof options));
+    options.dims[0] = options.dims[1] = options.dims[2] = N;
+    options.material_min = 1;
+    options.material_max = 2;
+    options.threads = 1;
+    EACH_ALLOCATION_FAILS(locus_graph_create(&options, ones, &graph), graph == NULL, 1000);
+    EACH_ALLOCATION_FAILS(locus_graph_set_box(graph, &all, twos), same_voxels(graph, 1), 1000);
+    EACH_ALLOCATION_FAILS(locus_graph_set_voxels(graph, indices, ones, VOXELS), same_voxels(graph, 2), 1000);
+    EACH_ALLOCATION_FAILS(locus_graph_fill_box(graph, &all, 2), same_voxels(graph, 1), 1000);
+
+    WORKS(locus_diagram_options_init(&how, sizeof how));
+    how.engine = engine;
+    EACH_ALLOCATION_FAILS(locus_diagram_create(graph, &how, &diagram), diagram == NULL, 1000);
+    EACH_ALLOCATION_FAILS(locus_diagram_add_seeds(diagram, seeds, 3), same_seeds(diagram, 0), 1000);
+    EACH_ALLOCATION_FAILS(locus_diagram_remove_seeds(diagram, &id, 1), same_seeds(diagram, 3), 1000);
+    EACH_ALLOCATION_FAILS(locus_diagram_solve(diagram, NULL, NULL), same_seeds(diagram, 2), 100000);
+    WORKS(locus_diagram_labels(diagram, NULL, labels, VOXELS));
+    EACH_ALLOCATION_FAILS(locus_diagram_solve(diagram, NULL, NULL), same_labels(diagram, labels), 100000);
+    WORKS(locus_place_options_init(&place, sizeof place));
+    place.count = 3;
+    place.first_id = 10;
+    place.lloyd_iterations = 2;
+    EACH_ALLOCATION_FAILS(locus_diagram_place_seeds(diagram, &place), same_seeds(diagram, 2), 100000);
+    locus_diagram_destroy(diagram);
+    locus_graph_destroy(graph);
+}
 
 static int same_records(const locus_pmq *pmq, uint64_t wanted) {
     uint64_t count = 0;
@@ -129,6 +203,9 @@ int main(void) {
     long before;
     printf("out of memory\n"); /* the stream's buffer is not a leak */
     before = live;
+    voxels(LOCUS_ENGINE_HEAP);
+    voxels(LOCUS_ENGINE_BUCKET);
+    voxels(LOCUS_ENGINE_RELAX);
     records(LOCUS_INDEX_IMPLICIT);
     records(LOCUS_INDEX_EXPLICIT);
     CHECK(live == before);

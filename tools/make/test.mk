@@ -49,7 +49,7 @@ headers: | $(call needs,test) ## every public header alone, under each standard 
 EXPORTS := $(LIBRARIES:%=exports-%)
 .PHONY: $(EXPORTS)
 $(EXPORTS): exports-%: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test)
-	$(STAGE) $(FLAVOUR)$@ env LOCUS_HEADERS_AHEAD=1 LOCUS_MAY_NEED='$(MAY_NEED_$*)' tests/abi/exports.sh $(SHARED_$*) src/lib$*.map $(HEADERS_$*)
+	$(STAGE) $(FLAVOUR)$@ env LOCUS_MAY_NEED='$(MAY_NEED_$*)' tests/abi/exports.sh $(SHARED_$*) src/lib$*.map $(HEADERS_$*)
 exports: $(EXPORTS) ## what library, version script and headers export is the same
 
 ABIS := $(LIBRARIES:%=abi-%)
