@@ -1,9 +1,9 @@
 /* locus/pmq.h - the PMQ: the live window of a stream of geo-located records, in memory, sorted along the Z-curve.
  *
  * A store holds fixed-size records in the order (key, arrival). The key is the 50-bit Morton code of the record's
- * Web-Mercator tile at zoom 25. Batches come in, records that the window no longer needs go out, and queries read what is
- * there: boxes, heat-map tiles, counts.
- * Method: thesis chapter 3, the packed-memory quadtree (PMQ), on the packed-memory array of Bender et al. 2005. */
+ * Web-Mercator tile at zoom 25. Batches come in, records that the window no longer needs go out, and queries read what
+ * is there: boxes, heat-map tiles, counts. Method: thesis chapter 3, the packed-memory quadtree (PMQ), on the
+ * packed-memory array of Bender et al. 2005. */
 #ifndef LOCUS_PMQ_H
 #define LOCUS_PMQ_H
 
@@ -15,9 +15,10 @@ extern "C" {
 
 typedef struct locus_pmq locus_pmq;
 
-/* The record layouts, by size. Latitudes are -90..90 and longitudes -180..180 degrees (180 and -180 are the same meridian
- * and keep the value given); times are microseconds since 1970-01-01 UTC. Coordinates are kept as given; latitudes beyond
- * the Web-Mercator range (85.0511287...) are clamped in the key only. */
+/* The record layouts, by size. Latitudes are -90..90 and longitudes -180..180 degrees (180 and -180 are the same
+ * meridian and keep the value given; the key takes it as -180); times are microseconds since 1970-01-01 UTC.
+ * Coordinates are kept as given; latitudes beyond the Web-Mercator range (85.0511287...) are clamped in the key only.
+ */
 #define LOCUS_RECORD_POINT32 32
 #define LOCUS_RECORD_TEXT156 156
 
@@ -53,36 +54,43 @@ typedef struct locus_text156 {
 #define LOCUS_NO_HORIZON INT64_MAX
 #define LOCUS_NO_LIMIT UINT64_MAX
 
-/* May this record go? 0 keep, 1 remove, negative: stop. Asked at most once per record and pass, in the store's order; the
- * answer permits removal, and when a record goes is the layout's business until locus_pmq_sweep. Called by the thread that
- * inserts or sweeps; must not throw, longjmp or call into the store. After a negative answer the pass removes nothing and
- * the call returns LOCUS_E_STOPPED, where removal was what it needed room for: see locus_pmq_insert. */
+/* May this record go? 0 keep, 1 remove, negative: stop. Asked at most once per record and pass, in the store's order;
+ * the answer permits removal, and when a record goes is the layout's business until locus_pmq_sweep. Called by the
+ * thread that inserts or sweeps; must not throw, longjmp or call into the store. After a negative answer the predicate
+ * is asked no more in this pass, what it permitted in it stays, horizon and limits hold all the same, and the call
+ * returns LOCUS_E_STOPPED. */
 typedef int32_t (*locus_remove_fn)(const void *record, void *user);
 
-/* Takes over a record that has just left the store (by predicate, horizon, limit or erase), each exactly once and after the
- * batch is committed. `record` is valid during the call. Return 0 to go on; any other value stops: the records not handed over yet
- * stay with the store, invisible to queries, and are handed over first by the next insert or sweep. Called by the thread
- * that inserts or sweeps; must not throw, longjmp or call into the store. */
+/* Takes over a record that has just left the store (by predicate, horizon, limit or erase), each exactly once and after
+ * the batch is committed. `record` is valid during the call. Return 0 to go on; any other value stops: this record has
+ * been taken over, those behind it stay with the store, invisible to queries, and are handed over first by the next
+ * insert, sweep or erase. Called by the thread that inserts, sweeps or erases; must not throw, longjmp or call into the
+ * store. */
 typedef int32_t (*locus_sink_fn)(const void *record, void *user);
 
+/* Limits. A batch that would exceed one makes the oldest records go: by time, of one time in the store's order, records
+ * of the batch itself included. So that one pass serves many batches, more go than must: down to a sixteenth below the
+ * limit, never further. The packed array needs the memory of a second array while it is written anew; an explicit index
+ * that does not fit in max_bytes is given up (same answers, slower). */
 typedef struct locus_pmq_options {
     uint64_t struct_size;
-    uint32_t record;         /* LOCUS_RECORD_; default LOCUS_RECORD_POINT32 */
-    uint32_t layout;         /* LOCUS_LAYOUT_; default LOCUS_LAYOUT_PACKED_ARRAY */
-    uint32_t index;          /* LOCUS_INDEX_, packed array only; default LOCUS_INDEX_IMPLICIT */
-    uint32_t future;         /* LOCUS_FUTURE_; default LOCUS_FUTURE_REFUSE */
-    int64_t horizon;         /* microseconds a record lives: gone once time < now - horizon; > 0; default LOCUS_NO_HORIZON */
-    uint64_t max_records;    /* most live records: beyond, the oldest go first; >= 1; default LOCUS_NO_LIMIT */
-    uint64_t max_bytes;      /* most memory for records and index; >= 64 KiB; default LOCUS_NO_LIMIT */
-    locus_remove_fn remove;  /* default NULL */
+    uint32_t record; /* LOCUS_RECORD_; default LOCUS_RECORD_POINT32 */
+    uint32_t layout; /* LOCUS_LAYOUT_; default LOCUS_LAYOUT_PACKED_ARRAY */
+    uint32_t index;  /* LOCUS_INDEX_, packed array only; default LOCUS_INDEX_IMPLICIT */
+    uint32_t future; /* LOCUS_FUTURE_; default LOCUS_FUTURE_REFUSE */
+    int64_t horizon; /* microseconds a record lives: gone once time < now - horizon; > 0; default LOCUS_NO_HORIZON */
+    uint64_t max_records; /* most live records, >= 1: see below; default LOCUS_NO_LIMIT */
+    uint64_t
+        max_bytes; /* most memory for slots and index between calls, >= 64 KiB: see below; default LOCUS_NO_LIMIT */
+    locus_remove_fn remove; /* default NULL */
     void *remove_user;
-    locus_sink_fn sink;      /* default NULL: evicted records are dropped */
+    locus_sink_fn sink; /* default NULL: evicted records are dropped */
     void *sink_user;
-    locus_log_fn log;        /* default NULL */
+    locus_log_fn log; /* default NULL */
     void *log_user;
-    /* The packed array (thesis section 3.2): slots per segment, a power of two 4..4096, default 8; and the bounds of the
-     * density, linear from the segment (rho_leaf, tau_leaf) to the whole array (rho_root, tau_root); equations 3.1 and 3.4:
-     * 0 <= rho_leaf < rho_root < tau_root < tau_leaf <= 1 and 2 * rho_root < tau_root. */
+    /* The packed array (thesis section 3.2): slots per segment, a power of two 4..4096, default 8; and the bounds of
+     * the density, linear from the segment (rho_leaf, tau_leaf) to the whole array (rho_root, tau_root); equations 3.1
+     * and 3.4: 0 <= rho_leaf < rho_root < tau_root < tau_leaf <= 1 and 2 * rho_root < tau_root. */
     uint32_t segment_slots;
     uint32_t reserved0; /* 0 */
     double rho_leaf;    /* default 0.08 */
@@ -91,16 +99,19 @@ typedef struct locus_pmq_options {
     double tau_root;    /* default 0.70 */
 } locus_pmq_options;
 
-/* A box in degrees, borders included. west > east means a box across the antimeridian. */
+/* A box in degrees, borders included. west > east means a box across the antimeridian. Coordinates are compared as they
+ * are (a record at a pole has the longitude it was given), but 180 and -180 are one meridian: a border there includes
+ * both. */
 typedef struct locus_box {
     double south, west, north, east;
 } locus_box;
 
-/* Accept a record? Not 0: yes. For queries; called by the thread that asks; must not throw, longjmp or call into the store. */
+/* Accept a record? Not 0: yes. For queries; called by the thread that asks; must not throw, longjmp or call into the
+ * store. */
 typedef int32_t (*locus_filter_fn)(const void *record, void *user);
 
-/* Receives a record, valid during the call, in the store's order. Return 0 to go on; any other value stops the call, which then returns
- * LOCUS_E_STOPPED. Called by the thread that asks; must not throw, longjmp or change the store. */
+/* Receives a record, valid during the call, in the store's order. Return 0 to go on; any other value stops the call,
+ * which then returns LOCUS_E_STOPPED. Called by the thread that asks; must not throw, longjmp or change the store. */
 typedef int32_t (*locus_visit_fn)(const void *record, void *user);
 
 /* Where a query looks. */
@@ -120,22 +131,22 @@ typedef struct locus_pmq_query {
 
 typedef struct locus_pmq_stats {
     uint64_t struct_size;
-    uint64_t records;           /* live records: what a query of everything counts */
-    uint64_t stored;            /* records in slots, the expired ones that are still to be removed included */
-    uint64_t pending;           /* evicted records that wait for the sink after it stopped */
-    uint64_t slots;             /* slots for records */
-    uint64_t bytes;             /* memory held */
-    uint64_t inserted;          /* records ever inserted, */
-    uint64_t evicted;           /* and removed by predicate, horizon or limit, */
-    uint64_t erased;            /* and removed by locus_pmq_erase */
-    uint64_t batches;           /* batches inserted */
-    uint64_t moved;             /* records moved by rebalances and resizes */
-    uint64_t rebalances;        /* windows rebalanced */
-    uint64_t grows;             /* times the array doubled, */
-    uint64_t shrinks;           /* and halved */
-    uint64_t longest_pause_ns;  /* the longest insert or sweep so far, wall time */
-    double density;             /* stored / slots */
-    int64_t now;                /* the clock of the latest insert or sweep; INT64_MIN before the first */
+    uint64_t records;          /* live records: what a query of everything counts */
+    uint64_t stored;           /* records in slots, the expired ones that are still to be removed included */
+    uint64_t pending;          /* evicted records that wait for the sink after it stopped */
+    uint64_t slots;            /* slots for records */
+    uint64_t bytes;            /* memory held */
+    uint64_t inserted;         /* records ever inserted, */
+    uint64_t evicted;          /* and removed by predicate, horizon or limit, */
+    uint64_t erased;           /* and removed by locus_pmq_erase */
+    uint64_t batches;          /* batches inserted */
+    uint64_t moved;            /* records moved by rebalances and resizes */
+    uint64_t rebalances;       /* windows rebalanced */
+    uint64_t grows;            /* times the array doubled, */
+    uint64_t shrinks;          /* and halved */
+    uint64_t longest_pause_ns; /* the longest change (insert, sweep, erase) so far, without the sink; wall time */
+    double density;            /* stored / slots */
+    int64_t now;               /* the clock of the latest insert or sweep; INT64_MIN before the first */
 } locus_pmq_stats;
 
 /* Fill the options or the query (of `size` bytes) with the defaults stated at the fields.
@@ -147,50 +158,56 @@ LOCUS_API locus_status locus_pmq_query_init(locus_pmq_query *query, size_t size)
  * Errors: LOCUS_E_ARGUMENT (NaN or outside -90..90, -180..180). Any thread. Since 0.1. */
 LOCUS_API locus_status locus_pmq_key(double latitude, double longitude, uint64_t *key) LOCUS_NOEXCEPT;
 
-/* Make an empty store. `options` may be NULL for the defaults. `*pmq` is the caller's, to be ended with locus_pmq_destroy;
- * NULL on any error. Errors: LOCUS_E_ARGUMENT (an option out of its range), LOCUS_E_MEMORY. Any thread. Since 0.1. */
+/* Make an empty store. `options` may be NULL for the defaults. `*pmq` is the caller's, to be ended with
+ * locus_pmq_destroy; NULL on any error. Errors: LOCUS_E_ARGUMENT (an option out of its range), LOCUS_E_MEMORY. Any
+ * thread. Since 0.1. */
 LOCUS_API locus_status locus_pmq_create(const locus_pmq_options *options, locus_pmq **pmq) LOCUS_NOEXCEPT;
 
 /* End a store. Its records are dropped, not handed to the sink. NULL is fine. Since 0.1. */
 LOCUS_API void locus_pmq_destroy(locus_pmq *pmq) LOCUS_NOEXCEPT;
 
 /* Insert `count` records of the store's layout, in their order of arrival, and set the store's clock to `now`
- * (microseconds), which never runs back. The batch is committed whole; then what has to go is evicted and handed to the sink. A record that is already
- * older than the horizon is stored and evicted like any other.
- * Errors that store nothing: LOCUS_E_ARGUMENT (coordinates that are NaN or out of range, a time after `now` unless clamped: the
- * text names the first such record's index and value; a clock that runs back), LOCUS_E_MEMORY.
- * LOCUS_E_STOPPED: the batch is stored and visible, but the predicate or the sink stopped.
- * Not beside any other call on the store. Since 0.1. */
+ * (microseconds), which never runs back. The batch is committed whole; then what has to go is evicted and handed to the
+ * sink. A record that is already older than the horizon is evicted like any other and never seen by a query. Errors
+ * that store nothing: LOCUS_E_ARGUMENT (coordinates that are NaN or out of range, a time after `now` unless clamped:
+ * the text names the first such record's index and value; a clock that runs back), LOCUS_E_MEMORY. LOCUS_E_STOPPED: the
+ * batch is stored and visible, but the predicate or the sink stopped. Not beside any other call on the store. Since
+ * 0.1. */
 LOCUS_API locus_status locus_pmq_insert(locus_pmq *pmq, const void *records, size_t count, int64_t now) LOCUS_NOEXCEPT;
 
-/* Set the clock to `now` and evict everything that may go: expired records, those the predicate permits, what exceeds the
- * limits. `*evicted` (may be NULL) is the number of records that left. Errors: LOCUS_E_ARGUMENT (a clock that runs back),
- * LOCUS_E_MEMORY (nothing removed), LOCUS_E_STOPPED. Not beside any other call on the store. Since 0.1. */
+/* Set the clock to `now` and evict everything that may go: expired records, those the predicate permits, what exceeds
+ * the limits. `*evicted` (may be NULL) is the number of records that left. Errors: LOCUS_E_ARGUMENT (a clock that runs
+ * back), LOCUS_E_MEMORY (nothing removed), LOCUS_E_STOPPED. Not beside any other call on the store. Since 0.1. */
 LOCUS_API locus_status locus_pmq_sweep(locus_pmq *pmq, int64_t now, uint64_t *evicted) LOCUS_NOEXCEPT;
 
-/* Remove the records that `query` selects (NULL: all) and hand them to the sink. `*erased` (may be NULL) is their number.
- * Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY (nothing removed), LOCUS_E_STOPPED (by the sink). Since 0.1. */
+/* Remove the live records that `query` selects (NULL: all) and hand them to the sink. `*erased` (may be NULL) is their
+ * number. Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY (nothing removed), LOCUS_E_STOPPED (by the sink; they are removed).
+ * Not beside any other call on the store. Since 0.1. */
 LOCUS_API locus_status locus_pmq_erase(locus_pmq *pmq, const locus_pmq_query *query, uint64_t *erased) LOCUS_NOEXCEPT;
 
-/* Count the live records that `query` selects (NULL: all). Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
+/* Count the live records that `query` selects (NULL: all). Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1.
+ */
 LOCUS_API locus_status locus_pmq_count(const locus_pmq *pmq, const locus_pmq_query *query,
                                        uint64_t *count) LOCUS_NOEXCEPT;
 
-/* Copy the live records that `query` selects (NULL: all), in the order (key, arrival), into `records`, which has room for
- * `capacity` of them. `*count` is how many there are, also when the capacity is too small: then the first `capacity` are
- * copied and the status is LOCUS_E_CAPACITY. Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
+/* Copy the live records that `query` selects (NULL: all), in the order (key, arrival), into `records`, which has room
+ * for `capacity` of them. `*count` is how many there are, also when the capacity is too small: then the first
+ * `capacity` are copied and the status is LOCUS_E_CAPACITY. Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1.
+ */
 LOCUS_API locus_status locus_pmq_read(const locus_pmq *pmq, const locus_pmq_query *query, void *records,
                                       size_t capacity, size_t *count) LOCUS_NOEXCEPT;
 
-/* Show the same records to `visit`, one by one. Errors: LOCUS_E_ARGUMENT, LOCUS_E_STOPPED. Beside other readers. Since 0.1. */
+/* Show the same records to `visit`, one by one. Errors: LOCUS_E_ARGUMENT, LOCUS_E_STOPPED. Beside other readers. Since
+ * 0.1. */
 LOCUS_API locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_query *query, locus_visit_fn visit,
                                        void *user) LOCUS_NOEXCEPT;
 
-/* Count the live records per bin of the Web-Mercator tile (zoom, x, y), zoom 0..25, x from the west, y from the north, both below
- * 2^zoom: 2^log2_bins bins a side (0..8), row by row from the north-west, added up in `bins` with room for `capacity`
- * numbers. A record belongs to the bin of its (clamped) key; finer than the key's 25 levels, of its coordinates. `query` (may be
- * NULL) adds a time window and a filter; its region must be LOCUS_REGION_ALL. `*total` (may be NULL) is the sum.
- * Errors: LOCUS_E_ARGUMENT (a tile that does not exist), LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
+/* Count the live records per bin of the Web-Mercator tile (zoom, x, y), zoom 0..25, x from the west, y from the north,
+ * both below 2^zoom: 2^log2_bins bins a side (0..8), row by row from the north-west, into `bins`, which has room for
+ * `capacity` numbers (a count beyond 2^32 - 1 stays there). A record belongs to the bin of its (clamped) key; finer
+ * than the key's 25 levels, of its coordinates. `query` (may be NULL) adds a time window and a filter; its region must
+ * be LOCUS_REGION_ALL. `*total` (may be NULL) is the sum. Errors: LOCUS_E_ARGUMENT (a tile that does not exist),
+ * LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y, uint32_t log2_bins,
                                       const locus_pmq_query *query, uint32_t *bins, size_t capacity,
                                       uint64_t *total) LOCUS_NOEXCEPT;
@@ -198,8 +215,8 @@ LOCUS_API locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint3
 /* Store the statistics; set stats->struct_size first. Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_pmq_get_stats(const locus_pmq *pmq, locus_pmq_stats *stats) LOCUS_NOEXCEPT;
 
-/* Verify every invariant of the store: order, counts, densities, index. Reads all records. LOCUS_E_INTERNAL with a text that names what
- * is broken; LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
+/* Verify every invariant of the store: order, counts, densities, index. Reads all records. LOCUS_E_INTERNAL with a text
+ * that names what is broken; LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_pmq_check(const locus_pmq *pmq) LOCUS_NOEXCEPT;
 
 #ifdef __cplusplus

@@ -13,7 +13,7 @@ constexpr double last_coordinate = 1.0 - 0x1p-40; // below 1 at every level in u
 } // namespace
 
 MapPoint map_point(double latitude, double longitude) noexcept {
-    const double x = longitude >= 180.0 ? 0.0 : (longitude + 180.0) / 360.0;
+    const double x = longitude >= 180.0 ? 0.0 : std::min((longitude + 180.0) / 360.0, last_coordinate);
     if (latitude >= mercator_latitude)
         return {x, 0.0};
     if (latitude <= -mercator_latitude)
