@@ -10,18 +10,11 @@ namespace {
 using Goals = std::map<std::string, double>;
 using Make = std::function<Volume(bool quick)>;
 
-struct Words {
-    uint32_t bits = LOCUS_WORD_32;
-    bool dial = true; ///< the bucket queue fits: its ring has a place for every step of the heaviest edge
-};
-
-void solve_case(Row &row, const Volume &volume, uint32_t threads, const Words &words) {
-    std::vector<Engine> engines{{"", LOCUS_ENGINE_AUTO, threads, words.bits},
-                                {"heap", LOCUS_ENGINE_HEAP, 1, words.bits}};
-    if (words.dial) {
-        engines.push_back({"dial", LOCUS_ENGINE_BUCKET, 1, words.bits});
-    }
-    race_engines(row, volume, engines);
+void solve_case(Row &row, const Volume &volume, uint32_t threads, uint32_t words) {
+    race_engines(row, volume,
+                 {{"", LOCUS_ENGINE_AUTO, threads, words},
+                  {"heap", LOCUS_ENGINE_HEAP, 1, words},
+                  {"dial", LOCUS_ENGINE_BUCKET, 1, words}});
     // The memory floor: 12 bytes a voxel at the speed at which this machine copies, in this very run.
     const double floor_ms = 1e3 * 12 * static_cast<double>(volume.voxels()) / copy_bandwidth(threads);
     row.extras["floor_ratio"] = row.ours.median / floor_ms;
@@ -29,7 +22,8 @@ void solve_case(Row &row, const Volume &volume, uint32_t threads, const Words &w
 }
 
 /// The case with two threads, and its twin .t1 with one, for the record.
-void add_pair(Cases &cases, const std::string &name, const Goals &goals, const Make &make, const Words &words = {}) {
+void add_pair(Cases &cases, const std::string &name, const Goals &goals, const Make &make,
+              uint32_t words = LOCUS_WORD_32) {
     for (const uint32_t threads : {2U, 1U}) {
         cases.push_back({name + (threads == 1 ? ".t1" : ""), "ms", threads == 1 ? Goals{} : goals,
                          [=](Row &row) { solve_case(row, make(row.quick), threads, words); }});
@@ -71,11 +65,10 @@ void add_voronoi(Cases &cases) {
     add_cubes(cases);
     add_pair(cases, "voronoi.plate.s20", {{"heap", 15}}, [](bool) { return plate("gradient", 20); });
     // From bone to fat the compliances of the steak differ by six orders of magnitude: words of 64 bits.
-    const Words wide{LOCUS_WORD_AUTO, false};
     add_pair(
-        cases, "voronoi.steak.s3", {{"heap", 12}}, [](bool) { return steak(3); }, wide);
+        cases, "voronoi.steak.s3", {{"heap", 12}}, [](bool) { return steak(3); }, LOCUS_WORD_AUTO);
     add_pair(
-        cases, "voronoi.steak.s10", {{"heap", 12}}, [](bool) { return steak(10); }, wide);
+        cases, "voronoi.steak.s10", {{"heap", 12}}, [](bool) { return steak(10); }, LOCUS_WORD_AUTO);
     add_pair(cases, "voronoi.ct.s32", {{"heap", 15}}, [](bool) { return head_ct(32); });
     cases.push_back({"voronoi.cube128.gradient.s10.w64", "ms", {{"word32", 1 / 1.8}}, word_case});
     cases.push_back({"voronoi.cube128.gradient.skimage", "ms", {{"skimage", 40}}, skimage_case});
