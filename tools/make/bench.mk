@@ -19,11 +19,13 @@ $(BENCH_PROGRAM): $(BENCH_OBJECTS) $(LIB_STATIC)
 	@echo "  LD  $@"
 	@$(CXX) $^ $(bench_libraries) $(LDFLAGS_ALL) -o $@
 
-.PHONY: bench bench-deps bench-smoke
+.PHONY: bench bench-deps check-bench
 bench: $(BENCH_PROGRAM) ## run the benchmarks into build/bench.jsonl; ONLY=regex for some, QUICK=1 for small sizes
-	BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench.jsonl $(if $(ONLY),--only '$(ONLY)') $(if $(QUICK),--quick)
+	@BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench.jsonl $(if $(ONLY),--only '$(ONLY)') $(if $(QUICK),--quick)
 
 bench-deps: packages-bench packages-bench-deps ## install the optional peers of the benchmarks: databases, scikit-image
 
-bench-smoke: $(BENCH_PROGRAM)
-	BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench-smoke.jsonl --quick --only '^(pmq|voronoi|update)'
+# A small run of every case but the reproductions: the answers of ours and of the peers that were found are compared.
+check: check-bench
+check-bench: $(BENCH_PROGRAM)
+	$(STAGE) $@ $< --quick --out $(OUT)/bench-smoke.jsonl --only '^(pmq|voronoi|update)'
