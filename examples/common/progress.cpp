@@ -61,11 +61,12 @@ void Progress::draw(double fraction, const std::string &note) {
     const int fixed = static_cast<int>(title_.size() + percent.size() + note.size()) + 8;
     const int bar = known ? std::clamp(width - fixed, 0, 30) : 0;
     const int full = static_cast<int>(std::lround(bar * part));
-    std::string line = title_ + " ";
-    if (bar > 0)
-        line += "[" + std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(bar - full), '.') +
-                "] ";
-    line += percent + "  " + note;
+    std::string line = title_ + ' ';
+    if (bar > 0) {
+        line += '[';
+        line.append(static_cast<size_t>(full), '#').append(static_cast<size_t>(bar - full), '.') += "] ";
+    }
+    line.append(percent).append("  ").append(note);
     line.resize(std::min(line.size(), static_cast<size_t>(std::max(width - 1, 1))));
     std::fprintf(stderr, "\r%s\033[K", line.c_str());
     std::fflush(stderr);
@@ -73,9 +74,13 @@ void Progress::draw(double fraction, const std::string &note) {
 }
 
 std::string with_commas(uint64_t number) {
-    std::string text = std::to_string(number);
-    for (size_t place = text.size(); place > 3; place -= 3)
-        text.insert(place - 3, ",");
+    const std::string digits = std::to_string(number);
+    std::string text;
+    for (size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0)
+            text += ',';
+        text += digits[i];
+    }
     return text;
 }
 

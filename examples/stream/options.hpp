@@ -1,0 +1,51 @@
+// The command line.
+#pragma once
+
+#include <locus/records.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace demo {
+
+struct Options {
+    // The generator.
+    double posts = 2e6;
+    double hours = 24;
+    uint64_t seed = 1;
+    size_t events = 12;
+    std::string start = "2026-03-21";
+
+    // A file instead.
+    std::string input; // empty: the generator
+    uint32_t format = LOCUS_RECORDS_AUTO;
+    std::string time, latitude, longitude, text; // empty: the usual names
+    uint32_t time_unit = LOCUS_TIME_AUTO;
+    char separator = ',';
+    uint32_t bad_lines = LOCUS_BAD_LINES_COUNT;
+    uint32_t max_line = 65536;
+
+    // The window.
+    double window_hours = 6;
+    size_t batch = 1000;
+    double speed = 0; // times real time; 0: as fast as it goes
+    uint32_t index = LOCUS_INDEX_IMPLICIT;
+
+    // What is shown.
+    std::string zoom = "auto";
+    double zoom_km = 0; // 0: chosen
+    size_t newest = 10;
+    size_t frames = 48;
+    bool pictures = true;
+    std::string out = "build/demo/stream";
+    std::string data = "examples/data";
+};
+
+// Nothing: `status` is what the program ends with at once (after --help, or an error that was printed).
+std::optional<Options> parse_options(int argc, char **argv, int &status);
+
+// The library's reader options; the strings stay with `options`.
+locus_records_options reader_options(const Options &options);
+
+} // namespace demo

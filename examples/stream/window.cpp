@@ -1,0 +1,87 @@
+// Inserting and measuring.
+#include "stream/window.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <stdexcept>
+
+namespace demo {
+
+void check(locus_status status) {
+    if (status != LOCUS_OK)
+        throw std::runtime_error(locus_last_error());
+}
+
+Window::Window(int64_t horizon, uint32_t index) : horizon_(horizon) {
+    locus_pmq_options options;
+    check(locus_pmq_options_init(&options, sizeof options));
+    options.record = LOCUS_RECORD_TEXT156;
+    options.index = index;
+    options.future = LOCUS_FUTURE_CLAMP;
+    options.horizon = horizon;
+    locus_pmq *store = nullptr;
+    check(locus_pmq_create(&options, &store));
+    store_.reset(store);
+}
+
+// A replay's clock is the latest time of the batch, but it never runs back, and a few times far ahead of the others (a
+// slip, a broken clock) do not move it, for they would empty the window: more than the horizon, and than ten times the
+// usual spread, after the median.
+int64_t Window::clock_of(const std::vector<locus_text156> &batch) {
+    times_.clear();
+    for (const locus_text156 &record : batch)
+        times_.push_back(record.time);
+    std::sort(times_.begin(), times_.end());
+    const auto median = static_cast<double>(times_[times_.size() / 2]);
+    const auto quarter = static_cast<double>(times_[times_.size() / 4]);
+    const double limit = median + std::max(static_cast<double>(horizon_), 10 * (median - quarter));
+    size_t last = times_.size() - 1;
+    while (static_cast<double>(times_[last]) > limit)
+        --last;
+    return std::max(clock_, times_[last]);
+}
+
+void Window::insert(const std::vector<locus_text156> &batch) {
+    if (batch.empty())
+        return;
+    clock_ = clock_of(batch);
+    for (const locus_text156 &record : batch) {
+        if (record.time > clock_)
+            ++ahead_;
+        // The subtraction on the clock's side cannot overflow for clocks of this era, but times are anybody's.
+        else if (clock_ >= INT64_MIN + horizon_ && record.time < clock_ - horizon_)
+            ++late_;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    check(locus_pmq_insert(store_.get(), batch.data(), batch.size(), clock_));
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    seconds_.push_back(taken.count());
+    insert_seconds_ += taken.count();
+}
+
+void Window::sweep() {
+    if (clock_ != INT64_MIN)
+        check(locus_pmq_sweep(store_.get(), clock_, nullptr));
+}
+
+locus_pmq_stats Window::stats() const {
+    locus_pmq_stats stats{};
+    stats.struct_size = sizeof stats;
+    check(locus_pmq_get_stats(store_.get(), &stats));
+    return stats;
+}
+
+Latencies Window::latencies() const {
+    if (seconds_.empty())
+        return {};
+    std::vector<double> sorted = seconds_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double part) {
+        return sorted[std::min(sorted.size() - 1, static_cast<size_t>(part * static_cast<double>(sorted.size())))];
+    };
+    const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);
+    return {sum / static_cast<double>(sorted.size()), at(0.5), at(0.99), sorted.back()};
+}
+
+} // namespace demo
