@@ -60,8 +60,9 @@ abi: $(ABIS) ## compare the ABI with tests/abi/*.abi
 abi-baseline: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test) ## renew tests/abi/*.abi after a meant change
 	@for library in $^; do tests/abi/compare.sh --renew $$library || exit 1; done
 
-# Valgrind: no error and no leak in the API tests, in the unit tests named here (UNIT_MEMCHECK_<area>: a GoogleTest filter for
-# those whose whole area would take minutes), and in MEMCHECK_RUNS, targets that other files add with $(MEMCHECK) in the recipe.
+# Valgrind: no error and no leak in the API tests, in the shortest unit tests of each area (MEMCHECK_MS milliseconds of them), and in
+# MEMCHECK_RUNS, targets that other files add with $(MEMCHECK) in the recipe.
+MEMCHECK_MS ?= 800
 # In the API tests what is still reachable at the end counts as a leak; not after dlclose, which leaves libstdc++ in memory.
 MEMCHECK := valgrind --quiet --leak-check=full --error-exitcode=99 --errors-for-leak-kinds=definite,indirect,possible
 MEMCHECK_REACHABLE := --errors-for-leak-kinds=all --show-leak-kinds=all
@@ -71,7 +72,7 @@ MEMCHECK_UNIT := $(UNIT_AREAS:%=memcheck-unit-%)
 $(MEMCHECK_API): memcheck-api-%: $(OUT)/tests/api/%
 	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $(if $(filter dlopen,$*),,$(MEMCHECK_REACHABLE)) $< $(if $(filter dlopen,$*),10)
 $(MEMCHECK_UNIT): memcheck-unit-%: $(OUT)/tests/unit_%
-	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $< --gtest_brief=1 --gtest_filter='$(or $(UNIT_MEMCHECK_$*),*)'
+	$(STAGE) $(FLAVOUR)$@ tests/unit/memcheck.sh $< $(MEMCHECK_MS) $(MEMCHECK)
 memcheck: $(MEMCHECK_API) $(MEMCHECK_UNIT) $(MEMCHECK_RUNS) ## Valgrind over the API tests, the short unit tests, a small demo
 
 # Installation: an outside C and C++ program, by pkg-config and by CMake, shared and static; then uninstall leaves nothing.
