@@ -18,10 +18,11 @@ typedef struct locus_diagram locus_diagram;
 /* The label of a voxel that no seed reaches; never a seed's id. Its distance is +infinity, its exact distance UINT64_MAX. */
 #define LOCUS_NO_SEED 0xFFFFFFFFu
 
-#define LOCUS_ENGINE_AUTO 0
+#define LOCUS_ENGINE_AUTO 0 /* LOCUS_ENGINE_BRICKS */
 #define LOCUS_ENGINE_HEAP 1   /* Dijkstra with a binary heap: the oracle every other engine is tested against */
 #define LOCUS_ENGINE_BUCKET 2 /* Dijkstra with a ring of buckets, one per step of distance (Dial 1969) */
 #define LOCUS_ENGINE_RELAX 3  /* the thesis' base algorithm, sections 2.4.1 to 2.4.3: relax all active voxels, iterate */
+#define LOCUS_ENGINE_BRICKS 4 /* blocks of 14 x 8 x 8 voxels in SIMD registers, on several threads */
 
 /* A seed: a place with an id of the caller's that names it in every result. */
 typedef struct locus_seed {
@@ -44,7 +45,8 @@ typedef struct locus_diagram_stats {
     uint64_t reached;         /* voxels with a label */
     uint64_t seeds;           /* seeds in the diagram */
     uint64_t relaxations;     /* edges looked at */
-    uint64_t iterations;      /* rounds (relax), buckets emptied (bucket), voxels settled (heap) */
+    uint64_t iterations;      /* rounds (relax), buckets emptied (bucket), voxels settled (heap), visits of
+                                bricks (bricks) */
     uint64_t max_exact;       /* the largest exact distance of a reached voxel, in steps */
     double max_distance;      /* the same in units of distance */
     double seconds_import;    /* wall time: bringing the graph into the engine's form, */

@@ -11,6 +11,8 @@ std::unique_ptr<Engine> make_engine(uint32_t kind) {
     case LOCUS_ENGINE_HEAP:
         return make_heap_engine();
     case LOCUS_ENGINE_AUTO:
+    case LOCUS_ENGINE_BRICKS:
+        return make_brick_engine();
     case LOCUS_ENGINE_BUCKET:
         return make_bucket_engine();
     case LOCUS_ENGINE_RELAX:

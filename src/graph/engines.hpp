@@ -8,5 +8,6 @@ namespace locus::graph {
 std::unique_ptr<Engine> make_heap_engine();   // heap.cpp
 std::unique_ptr<Engine> make_bucket_engine(); // bucket.cpp
 std::unique_ptr<Engine> make_relax_engine();  // relax.cpp
+std::unique_ptr<Engine> make_brick_engine();  // bricks/engine.cpp
 
 } // namespace locus::graph

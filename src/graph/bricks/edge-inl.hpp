@@ -97,4 +97,13 @@ private:
     }
 };
 
+template <typename Word, typename Weight>
+void visit_edges(Visit<Word> &visit) {
+    EdgeVisit<Word, Weight>(visit).run();
+}
+
+template <typename Word>
+inline constexpr EdgeKernels<Word> edge_table = {
+    visit_edges<Word, MeanWeight<Word>>, visit_edges<Word, MaxWeight<Word>>, visit_edges<Word, StiffnessWeight<Word>>};
+
 } // namespace locus::bricks::LOCUS_LANES_NAMESPACE

@@ -55,6 +55,11 @@ struct Place {
     int32_t x = 0, y = 0, z = 0;
 };
 
+inline Place place_of(const std::array<uint64_t, 3> &voxel) {
+    return {static_cast<int32_t>(voxel[0] / kWidth), static_cast<int32_t>(voxel[1] / kSide),
+            static_cast<int32_t>(voxel[2] / kSide)};
+}
+
 inline bool adjacent(const Place &a, const Place &b) {
     const auto near = [](int32_t p, int32_t q) { return p - q <= 1 && q - p <= 1; };
     return near(a.x, b.x) && near(a.y, b.y) && near(a.z, b.z);
@@ -73,29 +78,22 @@ constexpr RowMask dilate(RowMask rows) {
 
 // The rows of the neighbour at (dy, dz) that touch the rows `rows` of this brick.
 constexpr RowMask touched(RowMask rows, int dy, int dz) {
-    RowMask moved = dilate(rows);
-    if (dy == 0 && dz == 0)
-        return moved;
-    // Only the border rows reach across; they land on the opposite border.
-    moved = rows;
+    // Only border rows reach across; they land on the opposite border and spread along it.
     if (dy < 0)
-        moved = (moved & kFirstY) << 7;
+        rows = (rows & kFirstY) << 7;
     if (dy > 0)
-        moved = (moved & kLastY) >> 7;
+        rows = (rows & kLastY) >> 7;
     if (dz < 0)
-        moved = (moved & kFirstZ) << 56;
+        rows = (rows & kFirstZ) << 56;
     if (dz > 0)
-        moved = (moved & kLastZ) >> 56;
-    RowMask wide = dilate(moved);
-    if (dy < 0)
-        wide &= kLastY;
-    if (dy > 0)
-        wide &= kFirstY;
-    if (dz < 0)
-        wide &= kLastZ;
-    if (dz > 0)
-        wide &= kFirstZ;
-    return wide;
+        rows = (rows & kLastZ) >> 56;
+    const RowMask border = (dy < 0   ? kLastY
+                            : dy > 0 ? kFirstY
+                                     : ~RowMask{0}) &
+                           (dz < 0   ? kLastZ
+                            : dz > 0 ? kFirstZ
+                                     : ~RowMask{0});
+    return dilate(rows) & border;
 }
 
 } // namespace locus::bricks

@@ -148,4 +148,12 @@ private:
     alignas(64) Word helper_[kPadded * kPadded][H::count][kLanes];
 };
 
+template <typename Word, bool Isotropic>
+void visit_mean(Visit<Word> &visit) {
+    MeanVisit<Word, Isotropic>(visit).run();
+}
+
+template <typename Word>
+inline constexpr MeanKernels<Word> mean_table = {visit_mean<Word, true>, visit_mean<Word, false>};
+
 } // namespace locus::bricks::LOCUS_LANES_NAMESPACE

@@ -7,6 +7,7 @@
 #include "graph/bricks/store.hpp"
 #include "graph/bricks/visit.hpp"
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -75,12 +76,17 @@ public:
     }
 
     uint64_t visits() const { return visits_; }
+    // Part of the bricks that have been visited; any thread may ask.
+    double fraction() const {
+        return static_cast<double>(seen_.load(std::memory_order_relaxed)) / static_cast<double>(state_.size());
+    }
 
 private:
     static constexpr uint64_t kNotQueued = std::numeric_limits<uint64_t>::max();
     struct State {
         Work work;
         uint64_t bucket = kNotQueued;
+        bool seen = false;
     };
     struct Entry {
         uint64_t bucket, arrival;
@@ -115,7 +121,9 @@ private:
                 continue;
             }
             const Taken taken{entry.brick, place, s.work};
-            s = State{};
+            if (!s.seen)
+                seen_.fetch_add(1, std::memory_order_relaxed);
+            s = State{.work = {}, .bucket = kNotQueued, .seen = true};
             slot_[thread].busy = true;
             slot_[thread].place = place;
             ++running_;
@@ -159,6 +167,7 @@ private:
     std::vector<Slot> slot_;
     std::vector<Entry> heap_;
     uint64_t arrivals_ = 0, visits_ = 0;
+    std::atomic<uint64_t> seen_{0};
     unsigned running_ = 0, idle_ = 0;
     bool stopped_ = false;
 };

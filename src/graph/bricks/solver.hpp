@@ -1,33 +1,33 @@
-// The brick solver: visits of bricks until no row improves.
+// The brick solver: visits of bricks, in the order and on the threads that the schedule gives them, until no row
+// improves.
 #pragma once
 
+#include "core/progress.hpp"
+#include "core/team.hpp"
+#include "graph/bricks/metric.hpp"
 #include "graph/bricks/schedule.hpp"
 #include "graph/bricks/store.hpp"
-#include "graph/bricks/team.hpp"
-#include "graph/bricks/visit.hpp"
 
-#include <atomic>
+#include <memory>
 
 namespace locus::bricks {
 
-// Run the scheduled visits to their end.
+// The cut edges by brick, null where a brick has none; empty where the graph has none.
+using BlockedBricks = std::vector<std::unique_ptr<Blocked>>;
+
 template <typename Word>
 class Solver {
 public:
-    Solver(Store<Word> &store, const Metric<Word> &metric, const Kernels<Word> &kernels, unsigned threads,
+    Solver(Store<Word> &store, const Recipe<Word> &recipe, const BlockedBricks &blocked, unsigned threads,
            unsigned width_bits)
-        : store_(store), metric_(metric), visit_(metric.isotropic ? kernels.mean_isotropic : kernels.mean_anisotropic),
-          threads_(threads), schedule_(store, threads, width_bits) {}
-
-    Schedule<Word> &schedule() { return schedule_; }
+        : store_(store), recipe_(recipe), blocked_(blocked), threads_(threads), schedule_(store, threads, width_bits) {}
 
     // Lower the word of a voxel, as a seed does.
-    void lower(uint64_t x, uint64_t y, uint64_t z, Word word) {
-        const Place place{static_cast<int32_t>(x / kWidth), static_cast<int32_t>(y / kSide),
-                          static_cast<int32_t>(z / kSide)};
+    void lower(const std::array<uint64_t, 3> &voxel, Word word) {
+        const Place place = place_of(voxel);
         const size_t brick = store_.at(place);
-        const auto row = static_cast<unsigned>(y % kSide + kSide * (z % kSide));
-        const auto lane = static_cast<unsigned>(x % kWidth + 1);
+        const auto row = static_cast<unsigned>(voxel[1] % kSide + kSide * (voxel[2] % kSide));
+        const auto lane = static_cast<unsigned>(voxel[0] % kWidth + 1);
         Word &own = store_[brick].row[row].word[lane];
         if (word >= own)
             return;
@@ -41,32 +41,46 @@ public:
         schedule_.add(brick, work, word);
     }
 
-    void run() {
-        run_team(
-            threads_, [this](unsigned thread) { work(thread); }, [this] { schedule_.stop(); });
+    void run(Progress &progress) {
+        run_team(threads_, [&](uint32_t thread) {
+            try {
+                work(thread, thread == 0 ? &progress : nullptr);
+            } catch (...) {
+                schedule_.stop();
+                throw;
+            }
+        });
     }
 
+    uint64_t visits() const { return schedule_.visits(); }
     uint64_t updates() const { return updates_; }
 
 private:
-    void work(unsigned thread) {
+    using Taken = typename Schedule<Word>::Taken;
+
+    // The calling thread alone reports progress.
+    void work(unsigned thread, Progress *progress) {
         Visit<Word> visit;
-        uint64_t updates = 0;
+        uint64_t updates = 0, visits = 0;
         auto taken = schedule_.next(thread, nullptr, nullptr);
         while (taken) {
             prepare(visit, *taken);
-            visit_(visit);
-            copy_borders(visit, *taken);
+            (visit.blocked != nullptr ? recipe_.visit_cut : recipe_.visit)(visit);
+            copy_borders(visit);
             updates += visit.updates;
-            const auto done = *taken;
+            if (progress != nullptr && ++visits % 64 == 0)
+                progress->report(schedule_.fraction());
+            const Taken done = *taken;
             taken = schedule_.next(thread, &done, &visit);
         }
         updates_ += updates;
     }
 
-    void prepare(Visit<Word> &visit, const typename Schedule<Word>::Taken &taken) {
+    void prepare(Visit<Word> &visit, const Taken &taken) {
         visit = Visit<Word>{};
-        visit.metric = &metric_;
+        visit.metric = &recipe_.metric;
+        visit.place = taken.place;
+        visit.blocked = blocked_.empty() ? nullptr : blocked_[taken.brick].get();
         visit.active = taken.work.active;
         visit.changed = taken.work.changed;
         visit.changed_first = taken.work.changed_first;
@@ -78,12 +92,12 @@ private:
     }
 
     // The x-neighbours keep copies of this brick's edge lanes.
-    void copy_borders(const Visit<Word> &visit, const typename Schedule<Word>::Taken &taken) {
-        copy_lane(visit, visit.changed_first, {taken.place.x - 1, taken.place.y, taken.place.z}, 1, kLanes - 1);
-        copy_lane(visit, visit.changed_last, {taken.place.x + 1, taken.place.y, taken.place.z}, kWidth, 0);
+    void copy_borders(const Visit<Word> &visit) {
+        copy_lane(visit, visit.changed_first, -1, 1, kLanes - 1);
+        copy_lane(visit, visit.changed_last, 1, kWidth, 0);
     }
-    void copy_lane(const Visit<Word> &visit, RowMask rows, const Place &to, unsigned from_lane, unsigned to_lane) {
-        const size_t neighbour = store_.at(to);
+    void copy_lane(const Visit<Word> &visit, RowMask rows, int dx, unsigned from_lane, unsigned to_lane) {
+        const size_t neighbour = store_.at({visit.place.x + dx, visit.place.y, visit.place.z});
         if (neighbour == store_.outside())
             return;
         const Brick<Word> &own = *visit.around[4];
@@ -95,8 +109,8 @@ private:
     }
 
     Store<Word> &store_;
-    Metric<Word> metric_;
-    void (*visit_)(Visit<Word> &);
+    const Recipe<Word> &recipe_;
+    const BlockedBricks &blocked_;
     unsigned threads_;
     Schedule<Word> schedule_;
     std::atomic<uint64_t> updates_{0};

@@ -1,58 +1,27 @@
-// Between dense arrays (x fastest) and bricks: compliances in, words out.
+// Between a graph's dense arrays (x fastest) and bricks: materials in, words out.
 #pragma once
 
 #include "graph/bricks/store.hpp"
+#include "graph/bricks/visit.hpp"
+#include "graph/graph.hpp"
 
-#include <cmath>
+#include <vector>
 
 namespace locus::bricks {
 
-// Fill the z-layer of bricks `bz`: compliances from `compliance(x, y, z)`-ordered dense memory, every word to
-// `unreached`.
+// The operands of one brick, its lanes 0 and 15 included; what lies outside the grid is impassable.
 template <typename Word>
-void import_layer(Store<Word> &store, uint32_t bz, const float *compliance, Word unreached) {
-    const auto &dims = store.layout().dims;
-    const auto &bricks = store.layout().bricks;
-    for (uint32_t by = 0; by < bricks[1]; ++by)
-        for (uint32_t bx = 0; bx < bricks[0]; ++bx) {
-            Brick<Word> &brick = store[store.layout().index(bx, by, bz)];
-            for (unsigned r = 0; r < kRows; ++r) {
-                const uint64_t y = uint64_t{by} * kSide + r % kSide;
-                const uint64_t z = uint64_t{bz} * kSide + r / kSide;
-                for (unsigned i = 0; i < kLanes; ++i) {
-                    const uint64_t x = uint64_t{bx} * kWidth + i - 1; // wraps to a huge number left of the grid
-                    const bool in = x < dims[0] && y < dims[1] && z < dims[2];
-                    const float c = in ? compliance[x + dims[0] * (y + dims[1] * z)] : -1.0f;
-                    brick.row[r].word[i] = unreached;
-                    brick.row[r].operand[i] = c >= 0 ? c : std::numeric_limits<float>::infinity(); // false for NaN too
-                }
-            }
-        }
-}
+void import_operands(const graph::Graph &graph, const Place &place, float impassable, Brick<Word> &brick);
 
 template <typename Word>
-void clear_outside(Store<Word> &store, Word unreached) {
-    for (auto &row : store[store.outside()].row)
-        for (unsigned i = 0; i < kLanes; ++i) {
-            row.word[i] = unreached;
-            row.operand[i] = std::numeric_limits<float>::infinity();
-        }
-}
+void fill_words(Word word, Brick<Word> &brick);
 
-// Copy the words of the z-layer of bricks `bz` to dense memory.
+// Copy a brick's words to dense memory; `unreached` becomes the graph's. Returns how many are reached.
 template <typename Word>
-void export_layer(const Store<Word> &store, uint32_t bz, Word *words) {
-    const auto &dims = store.layout().dims;
-    const auto &bricks = store.layout().bricks;
-    const uint64_t z_end = std::min<uint64_t>(dims[2], (uint64_t{bz} + 1) * kSide);
-    for (uint64_t z = uint64_t{bz} * kSide; z < z_end; ++z)
-        for (uint64_t y = 0; y < dims[1]; ++y)
-            for (uint32_t bx = 0; bx < bricks[0]; ++bx) {
-                const uint64_t x = uint64_t{bx} * kWidth;
-                const auto &brick = store[store.layout().index(bx, static_cast<uint32_t>(y / kSide), bz)];
-                const Word *from = brick.row[y % kSide + kSide * (z % kSide)].word + 1;
-                std::copy_n(from, std::min<uint64_t>(kWidth, dims[0] - x), words + x + dims[0] * (y + dims[1] * z));
-            }
-}
+uint64_t export_words(const graph::Graph &graph, const Place &place, const Brick<Word> &brick, Word unreached,
+                      Word *words);
+
+// Which edges of each brick are cut; null for a brick without any. Empty for a graph without any.
+std::vector<std::unique_ptr<Blocked>> blocked_edges(const graph::Graph &graph, const Layout &layout);
 
 } // namespace locus::bricks

@@ -4,16 +4,21 @@
 #include "core/simd.hpp"
 #include "graph/bricks/layout.hpp"
 
+namespace locus::graph {
+class Graph;
+}
+
 namespace locus::bricks {
 
 template <typename Word>
 using Real = std::conditional_t<sizeof(Word) == 4, float, double>;
 
 // How compliances become integer weights. Offsets fall into seven classes by the axes they move along: bit 0 x, bit 1
-// y, bit 2 z. A voxel's share of an edge of class k is q_k = clamp(c * factor[k], low[k], cap) rounded to the nearest
-// integer, ties to even, all in single precision: so every instruction set gives the same bits.
+// y, bit 2 z. What graph/quantize.hpp computes from operands and factors of class k is clamped to low[k] .. cap before
+// it is rounded to the nearest integer, ties to even; every instruction set gives the same bits.
 template <typename Word>
 struct Metric {
+    const graph::Graph *graph = nullptr; // for the kernel that asks it
     Real<Word> factor[8] = {};
     Real<Word> low[8] = {}; // 1, or `cap` for a class that the connectivity leaves out
     Real<Word> cap = 0;     // what an impassable voxel costs; shifted by label_bits it is `infinity`
@@ -21,15 +26,6 @@ struct Metric {
     bool isotropic = true; // equal factors for classes 1 2 4, for 3 5 6
     Word infinity = 0;     // three of them do not wrap
 };
-
-// The largest power of two whose triple fits a word (63 bits of the wide one: signed comparisons are the fast ones),
-// and whose distance part single and double precision convert exactly.
-template <typename Word>
-constexpr Word infinity_of(uint32_t label_bits) {
-    constexpr uint32_t top = sizeof(Word) == 4 ? 30 : 61;
-    const uint32_t exact = 51 + label_bits;
-    return Word{1} << (top < exact ? top : exact);
-}
 
 template <typename Word>
 struct Wake {
@@ -49,7 +45,8 @@ struct Blocked {
 template <typename Word>
 struct Visit {
     const Metric<Word> *metric = nullptr;
-    const Blocked *blocked = nullptr;      // null: no edge of the brick is cut
+    const Blocked *blocked = nullptr; // null: no edge of the brick is cut
+    Place place;
     std::array<Brick<Word> *, 9> around{}; // at dx = 0: [dy + 1 + 3 * (dz + 1)], the brick itself in the middle
     RowMask active = 0;                    // rows to look at
     RowMask changed = 0;                   // in: rows changed since the last visit; out: and those this visit changed
@@ -60,22 +57,28 @@ struct Visit {
 };
 
 template <typename Word>
-struct Kernels {
-    void (*mean_isotropic)(Visit<Word> &) = nullptr;
-    void (*mean_anisotropic)(Visit<Word> &) = nullptr;
-    void (*mean_by_edge)(Visit<Word> &) = nullptr; // where edges are cut
-    void (*max)(Visit<Word> &) = nullptr;
-    void (*stiffness)(Visit<Word> &) = nullptr;
+using VisitFunction = void (*)(Visit<Word> &);
+
+// The kernels of one instruction set: separable weights (mean-inl.hpp), and weights edge by edge (edge-inl.hpp).
+template <typename Word>
+struct MeanKernels {
+    VisitFunction<Word> isotropic, anisotropic;
+};
+template <typename Word>
+struct EdgeKernels {
+    VisitFunction<Word> mean, max, stiffness;
 };
 
-struct KernelTable {
-    Kernels<uint32_t> narrow;
-    Kernels<uint64_t> wide;
-};
+// For an instruction set that simd_available() admits.
+template <typename Word>
+const MeanKernels<Word> &mean_kernels(Simd target) noexcept;
+template <typename Word>
+const EdgeKernels<Word> &edge_kernels(Simd target) noexcept;
 
-// The kernels of an instruction set that simd_available() admits.
-const KernelTable &kernels(Simd target) noexcept;
-
-const KernelTable &scalar_kernels() noexcept;
+// The plain loops.
+template <typename Word>
+const MeanKernels<Word> &scalar_mean_kernels() noexcept;
+template <typename Word>
+const EdgeKernels<Word> &scalar_edge_kernels() noexcept;
 
 } // namespace locus::bricks

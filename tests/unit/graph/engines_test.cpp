@@ -8,7 +8,7 @@ namespace {
 using namespace locus::graph;
 using namespace locus::graph::test;
 
-constexpr uint32_t engines[] = {LOCUS_ENGINE_HEAP, LOCUS_ENGINE_BUCKET, LOCUS_ENGINE_RELAX};
+constexpr uint32_t engines[] = {LOCUS_ENGINE_HEAP, LOCUS_ENGINE_BUCKET, LOCUS_ENGINE_RELAX, LOCUS_ENGINE_BRICKS};
 
 double callers_weight(uint64_t u, uint64_t v, double length, void *) {
     if ((u * 7 + v * 13) % 11 == 0)

@@ -1,11 +1,11 @@
-// The kernels for every instruction set: Highway compiles this file once per target, and kernels() chooses by a table
-// of our own, so that a handle can force its target and nothing of Highway's run-time library is linked.
+// Separable weights for every instruction set: Highway compiles this file once per target, and mean_kernels() chooses
+// from a table of our own, so that a handle can force its target and nothing of Highway's run-time library is linked.
 #include "graph/bricks/visit.hpp"
 
 #ifndef LOCUS_SIMD_SCALAR_ONLY
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "graph/bricks/visit_simd.cpp"
+#define HWY_TARGET_INCLUDE "graph/bricks/mean_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -19,13 +19,9 @@
 #if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_NEON
 HWY_BEFORE_NAMESPACE();
 #include "graph/bricks/lanes_highway-inl.hpp"
-
 #include "graph/bricks/pull-inl.hpp"
 
-#include "graph/bricks/edge-inl.hpp"
 #include "graph/bricks/mean-inl.hpp"
-
-#include "graph/bricks/kernels-inl.hpp"
 HWY_AFTER_NAMESPACE();
 #endif
 
@@ -34,30 +30,34 @@ HWY_AFTER_NAMESPACE();
 #if defined(LOCUS_SIMD_SCALAR_ONLY) || HWY_ONCE
 namespace locus::bricks {
 
-const KernelTable &kernels(Simd target) noexcept {
+template <typename Word>
+const MeanKernels<Word> &mean_kernels(Simd target) noexcept {
     switch (target) {
 #ifndef LOCUS_SIMD_SCALAR_ONLY
 #if (HWY_TARGETS & HWY_SSE4)
     case Simd::sse4:
-        return N_SSE4::table;
+        return N_SSE4::mean_table<Word>;
 #endif
 #if (HWY_TARGETS & HWY_AVX2)
     case Simd::avx2:
-        return N_AVX2::table;
+        return N_AVX2::mean_table<Word>;
 #endif
 #if (HWY_TARGETS & HWY_AVX3)
     case Simd::avx512:
-        return N_AVX3::table;
+        return N_AVX3::mean_table<Word>;
 #endif
 #if (HWY_TARGETS & HWY_NEON)
     case Simd::neon:
-        return N_NEON::table;
+        return N_NEON::mean_table<Word>;
 #endif
 #endif
     default:
-        return scalar_kernels();
+        return scalar_mean_kernels<Word>();
     }
 }
+
+template const MeanKernels<uint32_t> &mean_kernels(Simd) noexcept;
+template const MeanKernels<uint64_t> &mean_kernels(Simd) noexcept;
 
 } // namespace locus::bricks
 #endif
