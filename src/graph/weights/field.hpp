@@ -1,0 +1,42 @@
+// What the interpolants see of a solved diagram: the nearest seed and its distance per voxel, and the edges between voxels.
+#pragma once
+
+#include "graph/engine.hpp"
+
+#include <cstdint>
+#include <variant>
+
+namespace locus::graph {
+
+constexpr uint32_t no_label = UINT32_MAX;
+
+// A voxel that no seed reaches is treated as impassable: no weight can come from there, and nothing is stolen there.
+class Field {
+public:
+    Field(const Graph &graph, const Words &words) : graph_(graph), words_(words), layout_(graph.layout()) {}
+
+    const Graph &graph() const { return graph_; }
+    const Grid &grid() const { return graph_.grid(); }
+
+    bool reached(uint64_t voxel) const { return layout_.reached(word(voxel)); }
+    uint64_t distance(uint64_t voxel) const { return layout_.distance(word(voxel)); }
+    uint32_t label(uint64_t voxel) const { return layout_.label(word(voxel)); }
+    // The largest distance of a reached voxel.
+    uint64_t farthest() const {
+        uint64_t farthest = 0;
+        for (uint64_t v = 0; v < grid().voxels(); ++v)
+            if (reached(v)) farthest = std::max(farthest, distance(v));
+        return farthest;
+    }
+
+private:
+    uint64_t word(uint64_t voxel) const {
+        return std::visit([&](const auto &words) -> uint64_t { return words[voxel]; }, words_);
+    }
+
+    const Graph &graph_;
+    const Words &words_;
+    WordLayout layout_;
+};
+
+} // namespace locus::graph

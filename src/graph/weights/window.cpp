@@ -1,0 +1,118 @@
+// Windows: filled from the field row by row.
+#include "graph/weights/window.hpp"
+
+namespace locus::graph {
+
+namespace {
+
+std::array<size_t, 3> padded(const Box &box) {
+    return {box.extent[0] + 2, box.extent[1] + 2, box.extent[2] + 2};
+}
+
+} // namespace
+
+template <typename Word>
+uint64_t Window<Word>::bytes(const Box &box) {
+    const auto sizes = padded(box);
+    const uint64_t rows = sizes[1] * sizes[2];
+    return sizes[0] * rows * (sizeof(Word) * (1 + backward_edges + batch_lanes) + sizeof(uint32_t) + sizeof(uint16_t)) +
+           3 * rows * sizeof(Span);
+}
+
+template <typename Word>
+void Window<Word>::open(const Field &field, const Box &box) {
+    box_ = Box{};
+    sizes_ = padded(box);
+    const size_t rows = sizes_[1] * sizes_[2], voxels = rows * sizes_[0];
+    nearest_.assign(voxels, far_away<Word>);
+    label_.assign(voxels, no_label);
+    back_.assign(voxels * backward_edges, far_away<Word>);
+    reach_.resize(voxels * batch_lanes);
+    stolen_.assign(voxels, 0);
+    for (std::vector<Span> *spans : {&fresh_[0], &fresh_[1], &touched_}) spans->assign(rows, Span{});
+    box_ = box;
+    for (uint64_t z = 0; z < box.extent[2]; ++z)
+        for (uint64_t y = 0; y < box.extent[1]; ++y) fill_row(field, y, z);
+    for (size_t v = 0; v < voxels; ++v)
+        std::fill_n(&reach_[v * batch_lanes], batch_lanes, nearest_[v]);
+
+    run_ = Settle<Word>{};
+    run_.sizes = sizes_;
+    for (unsigned n = 0; n < backward_edges; ++n) {
+        const Neighbour &to = field.grid().neighbour(n);
+        run_.step[n] = to.dx + static_cast<ptrdiff_t>(sizes_[0]) * (to.dy + static_cast<ptrdiff_t>(sizes_[1]) * to.dz);
+    }
+    run_.nearest = nearest_.data();
+    run_.back = back_.data();
+    run_.reach = reach_.data();
+    run_.stolen = stolen_.data();
+    run_.fresh = fresh_[0].data();
+    run_.changed = fresh_[1].data();
+    run_.touched_spans = touched_.data();
+}
+
+template <typename Word>
+void Window<Word>::fill_row(const Field &field, uint64_t y, uint64_t z) {
+    const Grid &grid = field.grid();
+    const std::array<uint64_t, 3> start = {box_.origin[0], box_.origin[1] + y, box_.origin[2] + z};
+    const size_t first = local(start);
+    const uint64_t voxel = grid.index(start[0], start[1], start[2]);
+    for (uint64_t x = 0; x < box_.extent[0]; ++x) {
+        if (!field.reached(voxel + x)) continue;
+        nearest_[first + x] = static_cast<Word>(field.distance(voxel + x));
+        label_[first + x] = field.label(voxel + x);
+        const uint32_t inside = grid.inside({start[0] + x, start[1], start[2]}) & field.graph().open_edges(voxel + x);
+        for (unsigned n = 0; n < backward_edges; ++n) {
+            const Neighbour &to = grid.neighbour(n);
+            if ((inside >> n & 1) == 0 || !field.reached(voxel + x + static_cast<uint64_t>(to.step))) continue;
+            const uint64_t weight = field.graph().weight(voxel + x, to);
+            if (weight != 0)
+                back_[(first + x) * backward_edges + n] = static_cast<Word>(std::min<uint64_t>(weight, far_away<Word>));
+        }
+    }
+}
+
+template <typename Word>
+bool Window<Word>::holds(const Box &box) const {
+    for (unsigned a = 0; a < 3; ++a)
+        if (box.origin[a] < box_.origin[a] || box.origin[a] + box.extent[a] > box_.origin[a] + box_.extent[a]) return false;
+    return true;
+}
+
+template <typename Word>
+void Window<Word>::start(size_t local, unsigned lane) {
+    reach_[local * batch_lanes + lane] = 0;
+    const size_t row = local / sizes_[0];
+    const auto x = static_cast<uint32_t>(local % sizes_[0]);
+    run_.fresh[row].add(x);
+    touched_[row].add(x);
+    run_.fresh_rows.add(row % sizes_[1], row / sizes_[1]);
+}
+
+template <typename Word>
+void Window<Word>::settle(const SettleKernels<Word> &kernels) { kernels.settle(run_); }
+
+template <typename Word>
+void Window<Word>::restore(const SettleKernels<Word> &kernels) { kernels.restore(run_); }
+
+template <typename Word>
+bool Window<Word>::too_small(const Grid &grid) const {
+    const Hull &hull = run_.touched;
+    if (hull.empty()) return false;
+    const auto beyond = [&](unsigned axis, uint64_t low, uint64_t high) {
+        return (low <= 1 && box_.origin[axis] > 0) ||
+               (high >= box_.extent[axis] && box_.origin[axis] + box_.extent[axis] < grid.dims()[axis]);
+    };
+    if (beyond(1, hull.y.first, hull.y.last) || beyond(2, hull.z.first, hull.z.last)) return true;
+    for (size_t z = hull.z.first; z <= hull.z.last; ++z)
+        for (size_t y = hull.y.first; y <= hull.y.last; ++y) {
+            const Span &span = touched_[z * sizes_[1] + y];
+            if (!span.empty() && beyond(0, span.first, span.last)) return true;
+        }
+    return false;
+}
+
+template class Window<uint32_t>;
+template class Window<uint64_t>;
+
+} // namespace locus::graph
