@@ -5,17 +5,17 @@ namespace locus::graph::LOCUS_LANES_NAMESPACE {
 
 template <typename Word>
 class Sweeper {
-    using L = Lanes<Word>;
+    using L = locus::bricks::LOCUS_LANES_NAMESPACE::Lanes<Word>;
 
 public:
     LOCUS_INLINE explicit Sweeper(Settle<Word> &settle) : s_(settle) {}
 
     LOCUS_INLINE void run() {
+        changed_rows_ = s_.fresh_rows; // the starts are news to the first sweep and to the second
         for (bool forward = true; !s_.fresh_rows.empty(); forward = !forward) {
-            s_.touched.add(s_.fresh_rows);
-            changed_rows_ = Hull{};
             forward ? sweep<true>() : sweep<false>();
             keep_changes();
+            changed_rows_ = Hull{};
         }
         mark_stolen();
     }
@@ -26,6 +26,7 @@ public:
             for (size_t x = span.first; !span.empty() && x <= span.last; ++x) {
                 const size_t v = row * s_.sizes[0] + x;
                 L::store(L::all(s_.nearest[v]), s_.reach + v * batch_lanes);
+                s_.stolen[v] = 0;
             }
             span = Span{};
         });
@@ -130,6 +131,7 @@ private:
         s_.fresh = s_.changed;
         s_.changed = emptied;
         s_.fresh_rows = changed_rows_;
+        s_.touched.add(changed_rows_);
     }
 
     LOCUS_INLINE void mark_stolen() {

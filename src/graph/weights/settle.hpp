@@ -61,9 +61,9 @@ struct Settle {
     const Word *nearest = nullptr;                 // D per voxel, far_away where nothing may pass
     const Word *back = nullptr;                    // 13 weights per voxel: to its neighbours 0..12, far_away where no edge
     Word *reach = nullptr;                         // 16 words per voxel
-    uint16_t *stolen = nullptr;                    // out: the lanes whose word lies below D, valid in touched spans
-    Span *fresh = nullptr;                         // per row: what the previous sweep changed (first: the starts)
-    Span *changed = nullptr;                       // per row: what this sweep changed
+    uint16_t *stolen = nullptr;                    // out: the lanes whose word lies below D; 0 outside the touched spans
+    Span *fresh = nullptr;                         // per row: what the previous sweep changed; at first the starts
+    Span *changed = nullptr;                       // per row: what this sweep changed; at first the starts
     Span *touched_spans = nullptr;                 // per row: what any sweep changed
     Hull fresh_rows, touched;
 };
@@ -71,7 +71,7 @@ struct Settle {
 template <typename Word>
 struct SettleKernels {
     void (*settle)(Settle<Word> &) = nullptr;
-    void (*restore)(Settle<Word> &) = nullptr; // reach = D in the touched spans, which become empty
+    void (*restore)(Settle<Word> &) = nullptr; // reach = D and stolen = 0 in the touched spans, which become empty
 };
 
 struct SettleTable {

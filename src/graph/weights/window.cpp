@@ -27,14 +27,14 @@ void Window<Word>::open(const Field &field, const Box &box) {
     nearest_.assign(voxels, far_away<Word>);
     label_.assign(voxels, no_label);
     back_.assign(voxels * backward_edges, far_away<Word>);
-    reach_.resize(voxels * batch_lanes);
+    reach_.resize(voxels);
     stolen_.assign(voxels, 0);
     for (std::vector<Span> *spans : {&fresh_[0], &fresh_[1], &touched_}) spans->assign(rows, Span{});
     box_ = box;
     for (uint64_t z = 0; z < box.extent[2]; ++z)
         for (uint64_t y = 0; y < box.extent[1]; ++y) fill_row(field, y, z);
     for (size_t v = 0; v < voxels; ++v)
-        std::fill_n(&reach_[v * batch_lanes], batch_lanes, nearest_[v]);
+        reach_[v].lane.fill(nearest_[v]);
 
     run_ = Settle<Word>{};
     run_.sizes = sizes_;
@@ -44,7 +44,7 @@ void Window<Word>::open(const Field &field, const Box &box) {
     }
     run_.nearest = nearest_.data();
     run_.back = back_.data();
-    run_.reach = reach_.data();
+    run_.reach = reach_.data()->lane.data();
     run_.stolen = stolen_.data();
     run_.fresh = fresh_[0].data();
     run_.changed = fresh_[1].data();
@@ -81,11 +81,10 @@ bool Window<Word>::holds(const Box &box) const {
 
 template <typename Word>
 void Window<Word>::start(size_t local, unsigned lane) {
-    reach_[local * batch_lanes + lane] = 0;
+    reach_[local].lane[lane] = 0;
     const size_t row = local / sizes_[0];
     const auto x = static_cast<uint32_t>(local % sizes_[0]);
-    run_.fresh[row].add(x);
-    touched_[row].add(x);
+    for (Span *spans : {run_.fresh, run_.changed}) spans[row].add(x);
     run_.fresh_rows.add(row % sizes_[1], row / sizes_[1]);
 }
 

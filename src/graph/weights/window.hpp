@@ -29,7 +29,7 @@ public:
     Word nearest(size_t local) const { return nearest_[local]; }
     uint32_t label(size_t local) const { return label_[local]; }
     Word back(size_t local, unsigned number) const { return back_[local * backward_edges + number]; }
-    const Word *reach(size_t local) const { return &reach_[local * batch_lanes]; }
+    const Word *reach(size_t local) const { return reach_[local].lane.data(); }
     uint16_t stolen(size_t local) const { return stolen_[local]; }
 
     // Start lane `lane` at a voxel: it is reached at distance 0.
@@ -52,7 +52,10 @@ private:
     std::vector<Word> nearest_;
     std::vector<uint32_t> label_;
     std::vector<Word> back_;
-    std::vector<Word> reach_;
+    struct alignas(64) Batch {
+        std::array<Word, batch_lanes> lane;
+    };
+    std::vector<Batch> reach_;
     std::vector<uint16_t> stolen_;
     std::vector<Span> fresh_[2];
     std::vector<Span> touched_;

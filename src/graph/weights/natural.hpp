@@ -1,0 +1,28 @@
+// The natural-neighbour methods, Sibson and Laplace: every query as one more seed of the diagram, sixteen at a time.
+#pragma once
+
+#include "core/progress.hpp"
+#include "core/simd.hpp"
+#include "graph/weights/field.hpp"
+#include "graph/weights/rows.hpp"
+
+#include <span>
+#include <vector>
+
+namespace locus::graph {
+
+struct NaturalJob {
+    const Field &field;
+    uint32_t method;                  // LOCUS_METHOD_SIBSON or LOCUS_METHOD_LAPLACE
+    uint32_t most;                    // entries a row may keep; 0: all
+    uint64_t bytes;                   // most scratch memory
+    uint32_t threads;
+    Simd simd;
+    std::span<const uint64_t> voxels; // one per row
+    std::span<const uint64_t> rows;   // the rows to compute; all where empty
+};
+
+// Piles that hold the rows. Throws LOCUS_E_MEMORY where `bytes` do not suffice for one thread, LOCUS_E_STOPPED.
+std::vector<RowPile> natural_rows(const NaturalJob &job, Progress &progress);
+
+} // namespace locus::graph

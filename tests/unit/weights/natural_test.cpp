@@ -1,0 +1,131 @@
+// Sibson and Laplace rows against their definitions, on every instruction set.
+#include "fields.hpp"
+#include "graph/weights/natural.hpp"
+#include "naive.hpp"
+
+#include <locus/weights.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace locus::graph {
+namespace {
+
+Rows fast_rows(const Solved &solved, uint32_t method, const std::vector<uint64_t> &voxels, Simd simd,
+               uint64_t bytes = uint64_t{1} << 30, uint32_t most = 0, uint32_t threads = 2) {
+    Progress progress;
+    const Field field = solved.field();
+    const auto piles = natural_rows({field, method, most, bytes, threads, simd, voxels, {}}, progress);
+    return assemble(voxels.size(), piles);
+}
+
+std::vector<uint64_t> all_voxels(const Solved &solved) {
+    std::vector<uint64_t> voxels(solved.graph.grid().voxels());
+    std::iota(voxels.begin(), voxels.end(), 0);
+    return voxels;
+}
+
+std::string text(std::span<const Share> row) {
+    std::string text;
+    for (const Share &share : row) text += std::to_string(share.label) + ":" + std::to_string(share.weight) + " ";
+    return text;
+}
+
+void expect_as_defined(const Solved &solved, const Rows &rows, uint32_t method, const std::vector<uint64_t> &voxels,
+                       uint32_t most = 0) {
+    const Field field = solved.field();
+    for (size_t i = 0; i < voxels.size(); ++i) {
+        const auto row = method == LOCUS_METHOD_SIBSON ? naive::sibson(field, voxels[i]) : naive::laplace(field, voxels[i]);
+        const auto expected = naive::finished(row, most);
+        ASSERT_TRUE(std::ranges::equal(rows.row(i), expected))
+            << "method " << method << ", voxel " << voxels[i] << ": " << text(rows.row(i)) << "instead of " << text(expected);
+    }
+}
+
+std::vector<Simd> targets() {
+    std::vector<Simd> targets;
+    for (const Simd simd : {Simd::scalar, Simd::sse4, Simd::avx2, Simd::avx512, Simd::neon})
+        if (simd_available(simd)) targets.push_back(simd);
+    return targets;
+}
+
+TEST(Natural, EveryInstructionSetGivesTheRowsOfTheDefinition) {
+    const Solved solved(options_for(17, 11, 9), noise(17 * 11 * 9, 1, 0.2), 7, 2);
+    const auto voxels = all_voxels(solved);
+    for (const uint32_t method : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE})
+        for (const Simd simd : targets())
+            expect_as_defined(solved, fast_rows(solved, method, voxels, simd), method, voxels);
+}
+
+TEST(Natural, EveryRuleAndConnectivityAndSpacing) {
+    uint32_t random = 10;
+    for (const uint32_t rule : {LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MAX_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS,
+                                LOCUS_WEIGHT_UNIFORM})
+        for (const uint32_t connectivity : {6u, 18u, 26u}) {
+            auto options = options_for(9, 8, 7);
+            options.weight_rule = rule;
+            options.connectivity = connectivity;
+            options.spacing[1] = 1.5, options.spacing[2] = 0.7;
+            ++random;
+            const Solved solved(options, noise(9 * 8 * 7, random, 0.1), 5, random);
+            const auto voxels = all_voxels(solved);
+            for (const uint32_t method : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE})
+                expect_as_defined(solved, fast_rows(solved, method, voxels, simd_best()), method, voxels);
+        }
+}
+
+TEST(Natural, WindowsGrowAndMemoryIsBounded) {
+    auto options = options_for(70, 40, 30);
+    const Solved solved(options, std::vector<float>(70 * 40 * 30, 1.f), 3, 5);
+    const std::vector<uint64_t> voxels = {0, 5, 69, 70 * 40 * 15 + 35, 70 * 40 * 30 - 1, 35, 35};
+    for (const uint32_t method : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE}) {
+        const uint64_t whole = 32u << 20; // bytes: room for one thread's window of the whole grid, not for two
+        expect_as_defined(solved, fast_rows(solved, method, voxels, simd_best(), whole), method, voxels);
+    }
+    try {
+        fast_rows(solved, LOCUS_METHOD_SIBSON, voxels, simd_best(), 1 << 20);
+        FAIL();
+    } catch (const Error &error) {
+        EXPECT_EQ(error.status(), LOCUS_E_MEMORY);
+    }
+}
+
+TEST(Natural, LongDistancesTakeWideLanes) {
+    auto options = options_for(12, 6, 5);
+    options.word_bits = LOCUS_WORD_64;
+    options.scale = 1e8;
+    const Solved solved(options, noise(12 * 6 * 5, 3), 4, 9);
+    ASSERT_GT(solved.field().farthest(), uint64_t{1} << 29);
+    const auto voxels = all_voxels(solved);
+    for (const Simd simd : targets())
+        expect_as_defined(solved, fast_rows(solved, LOCUS_METHOD_SIBSON, voxels, simd), LOCUS_METHOD_SIBSON, voxels);
+}
+
+TEST(Natural, BeyondACutOffNothingIsStolen) {
+    const Solved solved(options_for(15, 9, 6), noise(15 * 9 * 6, 4), 3, 6, 4000);
+    const auto voxels = all_voxels(solved);
+    for (const uint32_t method : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE})
+        expect_as_defined(solved, fast_rows(solved, method, voxels, simd_best()), method, voxels);
+}
+
+TEST(Natural, PrunedRowsKeepTheLargestWeights) {
+    const Solved solved(options_for(20, 12, 8), noise(20 * 12 * 8, 7), 12, 8);
+    const auto voxels = all_voxels(solved);
+    expect_as_defined(solved, fast_rows(solved, LOCUS_METHOD_SIBSON, voxels, simd_best(), 1 << 30, 3),
+                      LOCUS_METHOD_SIBSON, voxels, 3);
+}
+
+TEST(Natural, TheThreadsDoNotMatter) {
+    const Solved solved(options_for(40, 40, 6), noise(40 * 40 * 6, 11), 9, 12);
+    const auto voxels = all_voxels(solved);
+    const Rows one = fast_rows(solved, LOCUS_METHOD_LAPLACE, voxels, simd_best(), 1 << 30, 0, 1);
+    for (const uint32_t threads : {2u, 3u, 8u}) {
+        const Rows several = fast_rows(solved, LOCUS_METHOD_LAPLACE, voxels, simd_best(), 1 << 30, 0, threads);
+        EXPECT_EQ(one.offsets, several.offsets);
+        EXPECT_EQ(one.shares, several.shares);
+    }
+}
+
+} // namespace
+} // namespace locus::graph
