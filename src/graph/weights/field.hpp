@@ -1,4 +1,5 @@
-// What the interpolants see of a solved diagram: the nearest seed and its distance per voxel, and the edges between voxels.
+// What the interpolants see of a solved diagram: the nearest seed and its distance per voxel, and the edges between
+// voxels.
 #pragma once
 
 #include "graph/engine.hpp"
@@ -25,7 +26,8 @@ public:
     uint64_t farthest() const {
         uint64_t farthest = 0;
         for (uint64_t v = 0; v < grid().voxels(); ++v)
-            if (reached(v)) farthest = std::max(farthest, distance(v));
+            if (reached(v))
+                farthest = std::max(farthest, distance(v));
         return farthest;
     }
 

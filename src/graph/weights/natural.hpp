@@ -13,9 +13,9 @@ namespace locus::graph {
 
 struct NaturalJob {
     const Field &field;
-    uint32_t method;                  // LOCUS_METHOD_SIBSON or LOCUS_METHOD_LAPLACE
-    uint32_t most;                    // entries a row may keep; 0: all
-    uint64_t bytes;                   // most scratch memory
+    uint32_t method; // LOCUS_METHOD_SIBSON or LOCUS_METHOD_LAPLACE
+    uint32_t most;   // entries a row may keep; 0: all
+    uint64_t bytes;  // most scratch memory
     uint32_t threads;
     Simd simd;
     std::span<const uint64_t> voxels; // one per row

@@ -41,9 +41,11 @@ Plan::Plan(const Grid &grid, std::span<const uint64_t> voxels, std::span<const u
     keyed.reserve(rows.empty() ? voxels.size() : rows.size());
     const auto take = [&](uint64_t row) { keyed.push_back({key(voxels[row]), {voxels[row], row}}); };
     if (rows.empty())
-        for (uint64_t row = 0; row < voxels.size(); ++row) take(row);
+        for (uint64_t row = 0; row < voxels.size(); ++row)
+            take(row);
     else
-        for (const uint64_t row : rows) take(row);
+        for (const uint64_t row : rows)
+            take(row);
     std::sort(keyed.begin(), keyed.end(), [](const Keyed &a, const Keyed &b) {
         return std::tie(a.key, a.query.voxel, a.query.row) < std::tie(b.key, b.query.voxel, b.query.row);
     });
@@ -51,7 +53,8 @@ Plan::Plan(const Grid &grid, std::span<const uint64_t> voxels, std::span<const u
     for (size_t i = 0; i < keyed.size(); ++i) {
         const auto [x, y, z] = grid.place(keyed[i].query.voxel);
         const bool new_tile = i == 0 || keyed[i].key.tile != keyed[i - 1].key.tile;
-        if (new_tile) tiles_.push_back({{{x, y, z}, {1, 1, 1}}, batches_.size(), 0});
+        if (new_tile)
+            tiles_.push_back({{{x, y, z}, {1, 1, 1}}, batches_.size(), 0});
         Tile &tile = tiles_.back();
         const std::array<uint64_t, 3> place = {x, y, z};
         for (unsigned a = 0; a < 3; ++a) {

@@ -19,12 +19,12 @@ struct QueryBatch {
     uint64_t first, count; // into the queries
 };
 
-// Queries in tiles, tiles in blocks: neighbours are searched together and one after the other, so that a window serves many
-// batches.
+// Queries in tiles, tiles in blocks: neighbours are searched together and one after the other, so that a window serves
+// many batches.
 class Plan {
 public:
-    // `voxels` in the order of their rows; `rows` says which to compute (all where empty). A tile spans `tile_side` voxels, a
-    // multiple of 4.
+    // `voxels` in the order of their rows; `rows` says which to compute (all where empty). A tile spans `tile_side`
+    // voxels, a multiple of 4.
     Plan(const Grid &grid, std::span<const uint64_t> voxels, std::span<const uint64_t> rows, uint64_t tile_side);
 
     struct Tile {
@@ -33,7 +33,9 @@ public:
     };
     const std::vector<Tile> &tiles() const { return tiles_; }
     const std::vector<QueryBatch> &batches() const { return batches_; }
-    std::span<const Query> queries(const QueryBatch &batch) const { return {queries_.data() + batch.first, batch.count}; }
+    std::span<const Query> queries(const QueryBatch &batch) const {
+        return {queries_.data() + batch.first, batch.count};
+    }
 
 private:
     std::vector<Query> queries_;

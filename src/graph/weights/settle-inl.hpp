@@ -17,15 +17,16 @@ public:
             keep_changes();
             changed_rows_ = Hull{};
         }
-        mark_stolen();
     }
 
-    LOCUS_INLINE void restore() {
+    // `ground(v)`: the row that voxel v goes back to.
+    template <typename Ground>
+    LOCUS_INLINE void restore(Ground ground) {
         for_touched_rows([&](size_t row) {
             Span &span = s_.touched_spans[row];
             for (size_t x = span.first; !span.empty() && x <= span.last; ++x) {
                 const size_t v = row * s_.sizes[0] + x;
-                L::store(L::all(s_.nearest[v]), s_.reach + v * batch_lanes);
+                L::store(ground(v), s_.reach + v * batch_lanes);
                 s_.stolen[v] = 0;
             }
             span = Span{};
@@ -33,15 +34,29 @@ public:
         s_.touched = Hull{};
     }
 
+    LOCUS_INLINE void mark_stolen() {
+        for_touched_rows([&](size_t row) {
+            const Span &span = s_.touched_spans[row];
+            for (size_t x = span.first; !span.empty() && x <= span.last; ++x) {
+                const size_t v = row * s_.sizes[0] + x;
+                s_.stolen[v] =
+                    static_cast<uint16_t>(L::differ(L::load(s_.reach + v * batch_lanes), L::all(s_.nearest[v])));
+            }
+        });
+    }
+
 private:
     template <typename Visit>
     LOCUS_INLINE void for_touched_rows(Visit visit) {
-        if (s_.touched.empty()) return;
+        if (s_.touched.empty())
+            return;
         for (size_t z = s_.touched.z.first; z <= s_.touched.z.last; ++z)
-            for (size_t y = s_.touched.y.first; y <= s_.touched.y.last; ++y) visit(z * s_.sizes[1] + y);
+            for (size_t y = s_.touched.y.first; y <= s_.touched.y.last; ++y)
+                visit(z * s_.sizes[1] + y);
     }
 
-    // One sweep in raster order, or against it. A row is visited where a row that it pulls from has changed in this sweep or the one before.
+    // One sweep in raster order, or against it. A row is visited where a row that it pulls from has changed in this
+    // sweep or the one before.
     template <bool Forward>
     LOCUS_INLINE void sweep() {
         const ptrdiff_t one = Forward ? 1 : -1;
@@ -58,10 +73,12 @@ private:
                 const bool row_changed = visit_row<Forward>(y, z);
                 plane_changed |= row_changed;
                 const bool beyond = Forward ? y >= high : y <= low;
-                if (y == y_border || (beyond && !row_changed)) break;
+                if (y == y_border || (beyond && !row_changed))
+                    break;
             }
             const bool beyond = Forward ? z >= z_end : z <= z_end;
-            if (z == z_border || (beyond && !plane_changed)) break;
+            if (z == z_border || (beyond && !plane_changed))
+                break;
         }
     }
 
@@ -79,25 +96,31 @@ private:
             span.add(s_.fresh[other]);
             span.add(s_.changed[other]);
         }
-        if (span.empty()) return false;
+        if (span.empty())
+            return false;
         const size_t first = inner(span.first - 1, 0), last = inner(span.last + 1, 0);
         Span &changed = s_.changed[row];
         if constexpr (Forward) {
             size_t end = last;
             for (size_t x = first; x <= end; ++x) {
-                if (!pull<true>(row * s_.sizes[0] + x)) continue;
+                if (!pull<true>(row * s_.sizes[0] + x))
+                    continue;
                 changed.add(static_cast<uint32_t>(x));
-                if (x == end) end = inner(end + 1, 0);
+                if (x == end)
+                    end = inner(end + 1, 0);
             }
         } else {
             size_t end = first;
             for (size_t x = last; x >= end; --x) {
-                if (!pull<false>(row * s_.sizes[0] + x)) continue;
+                if (!pull<false>(row * s_.sizes[0] + x))
+                    continue;
                 changed.add(static_cast<uint32_t>(x));
-                if (x == end) end = inner(end - 1, 0);
+                if (x == end)
+                    end = inner(end - 1, 0);
             }
         }
-        if (changed.empty()) return false;
+        if (changed.empty())
+            return false;
         changed_rows_.add(y, z);
         return true;
     }
@@ -112,7 +135,8 @@ private:
             const Word weight = s_.back[(Forward ? v : from) * backward_edges + n];
             least = L::min(least, L::add(L::load(s_.reach + from * batch_lanes), L::all(weight)));
         }
-        if (L::differ(least, old) == 0) return false;
+        if (L::differ(least, old) == 0)
+            return false;
         L::store(least, s_.reach + v * batch_lanes);
         return true;
     }
@@ -122,7 +146,8 @@ private:
         const Hull stale = s_.fresh_rows;
         if (!stale.empty())
             for (size_t z = stale.z.first; z <= stale.z.last; ++z)
-                for (size_t y = stale.y.first; y <= stale.y.last; ++y) s_.fresh[z * s_.sizes[1] + y] = Span{};
+                for (size_t y = stale.y.first; y <= stale.y.last; ++y)
+                    s_.fresh[z * s_.sizes[1] + y] = Span{};
         if (!changed_rows_.empty())
             for (size_t z = changed_rows_.z.first; z <= changed_rows_.z.last; ++z)
                 for (size_t y = changed_rows_.y.first; y <= changed_rows_.y.last; ++y)
@@ -134,17 +159,6 @@ private:
         s_.touched.add(changed_rows_);
     }
 
-    LOCUS_INLINE void mark_stolen() {
-        for_touched_rows([&](size_t row) {
-            const Span &span = s_.touched_spans[row];
-            for (size_t x = span.first; !span.empty() && x <= span.last; ++x) {
-                const size_t v = row * s_.sizes[0] + x;
-                s_.stolen[v] = static_cast<uint16_t>(
-                    L::differ(L::load(s_.reach + v * batch_lanes), L::all(s_.nearest[v])));
-            }
-        });
-    }
-
     Settle<Word> &s_;
     Hull changed_rows_;
 };
@@ -154,10 +168,24 @@ void settle(Settle<Word> &settle) {
     Sweeper<Word>(settle).run();
 }
 template <typename Word>
-void restore(Settle<Word> &settle) {
-    Sweeper<Word>(settle).restore();
+void mark(Settle<Word> &settle) {
+    Sweeper<Word>(settle).mark_stolen();
+}
+template <typename Word>
+void restore_nearest(Settle<Word> &settle) {
+    using L = locus::bricks::LOCUS_LANES_NAMESPACE::Lanes<Word>;
+    Sweeper<Word>(settle).restore([&](size_t v) { return L::all(settle.nearest[v]); });
+}
+template <typename Word>
+void restore_bound(Settle<Word> &settle) {
+    using L = locus::bricks::LOCUS_LANES_NAMESPACE::Lanes<Word>;
+    const auto bound = L::load(settle.bound);
+    Sweeper<Word>(settle).restore([&](size_t) { return bound; });
 }
 
-constexpr SettleTable settle_table = {{settle<uint32_t>, restore<uint32_t>}, {settle<uint64_t>, restore<uint64_t>}};
+template <typename Word>
+constexpr SettleKernels<Word> settle_kernels_of = {settle<Word>, mark<Word>, restore_nearest<Word>,
+                                                   restore_bound<Word>};
+constexpr SettleTable settle_table = {settle_kernels_of<uint32_t>, settle_kernels_of<uint64_t>};
 
 } // namespace locus::graph::LOCUS_LANES_NAMESPACE

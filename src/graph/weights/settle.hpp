@@ -1,12 +1,13 @@
-// Sixteen bounded shortest-path searches at once, one per SIMD lane, over the same window of the grid: what the kernels are
-// given, and the table of kernels per instruction set.
+// Sixteen bounded shortest-path searches at once, one per SIMD lane, over the same window of the grid: what the kernels
+// are given, and the table of kernels per instruction set.
 //
-// A lane's word at voxel v is min(D(v), d(q, v)): it starts at D(v), the distance to the nearest seed, and falls where the
-// query q is nearer. Because D is itself a fixpoint of the same edges, words that have not fallen never lower a neighbour,
-// and because the stolen set is star-shaped around q (u on a shortest path to a stolen v is stolen: d(q,u) = d(q,v) - d(u,v) <
-// D(v) - d(u,v) <= D(u)), the search is exact although it goes no farther than what is stolen.
-// Forward and backward raster sweeps over 13 neighbours each (Danielsson-style) are repeated over the parts of rows that
-// changed until nothing falls.
+// A lane's word at voxel v is min(D(v), d(q, v)): it starts at D(v), the distance to the nearest seed, and falls where
+// the query q is nearer. Because D is itself a fixpoint of the same edges, words that have not fallen never lower a
+// neighbour, and because the stolen set is star-shaped around q (u on a shortest path to a stolen v is stolen: d(q,u) =
+// d(q,v) - d(u,v) < D(v) - d(u,v) <= D(u)), the search is exact although it goes no farther than what is stolen.
+// Instead of D, a bound per lane may be where the words start: a plain search up to that distance.
+// Forward and backward raster sweeps over 13 neighbours each (Danielsson-style) are repeated over the parts of rows
+// that changed until nothing falls.
 #pragma once
 
 #include "core/simd.hpp"
@@ -20,6 +21,7 @@ namespace locus::graph {
 
 constexpr unsigned batch_lanes = 16;
 constexpr unsigned backward_edges = 13;
+constexpr std::array<unsigned, 3> backward_face = {12, 10, 4}; // the numbers of the neighbours at -x, -y and -z
 
 // What an impassable voxel or an edge that is not there costs: three of them do not wrap, nor reach a sign bit.
 template <typename Word>
@@ -56,22 +58,26 @@ struct Hull {
 
 template <typename Word>
 struct Settle {
-    std::array<size_t, 3> sizes{};                 // of the window, border included
-    std::array<ptrdiff_t, backward_edges> step{};  // to the neighbours 0..12
-    const Word *nearest = nullptr;                 // D per voxel, far_away where nothing may pass
-    const Word *back = nullptr;                    // 13 weights per voxel: to its neighbours 0..12, far_away where no edge
-    Word *reach = nullptr;                         // 16 words per voxel
-    uint16_t *stolen = nullptr;                    // out: the lanes whose word lies below D; 0 outside the touched spans
-    Span *fresh = nullptr;                         // per row: what the previous sweep changed; at first the starts
-    Span *changed = nullptr;                       // per row: what this sweep changed; at first the starts
-    Span *touched_spans = nullptr;                 // per row: what any sweep changed
+    std::array<size_t, 3> sizes{};                // of the window, border included
+    std::array<ptrdiff_t, backward_edges> step{}; // to the neighbours 0..12
+    const Word *nearest = nullptr;                // D per voxel, far_away where nothing may pass
+    const Word *back = nullptr;    // 13 weights per voxel: to its neighbours 0..12, far_away where no edge
+    Word *reach = nullptr;         // 16 words per voxel
+    const Word *bound = nullptr;   // 16 words for restore_bound
+    uint16_t *stolen = nullptr;    // out: the lanes whose word lies below D; 0 outside the touched spans
+    Span *fresh = nullptr;         // per row: what the previous sweep changed; at first the starts
+    Span *changed = nullptr;       // per row: what this sweep changed; at first the starts
+    Span *touched_spans = nullptr; // per row: what any sweep changed
     Hull fresh_rows, touched;
 };
 
 template <typename Word>
 struct SettleKernels {
-    void (*settle)(Settle<Word> &) = nullptr;
-    void (*restore)(Settle<Word> &) = nullptr; // reach = D and stolen = 0 in the touched spans, which become empty
+    void (*settle)(Settle<Word> &) = nullptr; // sweep from the fresh spans to the fixpoint
+    void (*mark)(Settle<Word> &) = nullptr;   // note in the touched spans which lanes lie below D
+    // In the touched spans, which become empty: stolen = 0 and reach back to D, or to the bounds.
+    void (*restore_nearest)(Settle<Word> &) = nullptr;
+    void (*restore_bound)(Settle<Word> &) = nullptr;
 };
 
 struct SettleTable {

@@ -12,7 +12,10 @@
 
 #undef LOCUS_LANES_NAMESPACE
 #undef LOCUS_INLINE
+#undef LOCUS_NOINLINE
 #define LOCUS_LANES_NAMESPACE HWY_NAMESPACE
+#define LOCUS_INLINE HWY_INLINE
+#define LOCUS_NOINLINE HWY_NOINLINE
 
 #if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_NEON
 HWY_BEFORE_NAMESPACE();
@@ -31,19 +34,24 @@ const SettleTable &settle_kernels(Simd target) noexcept {
     switch (target) {
 #ifndef LOCUS_SIMD_SCALAR_ONLY
 #if (HWY_TARGETS & HWY_SSE4)
-    case Simd::sse4: return N_SSE4::settle_table;
+    case Simd::sse4:
+        return N_SSE4::settle_table;
 #endif
 #if (HWY_TARGETS & HWY_AVX2)
-    case Simd::avx2: return N_AVX2::settle_table;
+    case Simd::avx2:
+        return N_AVX2::settle_table;
 #endif
 #if (HWY_TARGETS & HWY_AVX3)
-    case Simd::avx512: return N_AVX3::settle_table;
+    case Simd::avx512:
+        return N_AVX3::settle_table;
 #endif
 #if (HWY_TARGETS & HWY_NEON)
-    case Simd::neon: return N_NEON::settle_table;
+    case Simd::neon:
+        return N_NEON::settle_table;
 #endif
 #endif
-    default: return scalar_settle_kernels();
+    default:
+        return scalar_settle_kernels();
     }
 }
 

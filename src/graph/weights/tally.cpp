@@ -5,8 +5,8 @@
 namespace locus::graph {
 namespace {
 
-// Counts set bits by position: how often each of 16 lanes stole. Plain 16-bit counters, which compilers turn into two vector
-// registers at every level of SIMD; emptied before they can overflow.
+// Counts set bits by position: how often each of 16 lanes stole. Plain 16-bit counters, which compilers turn into two
+// vector registers at every level of SIMD; emptied before they can overflow.
 class LaneCounter {
 public:
     void add(uint16_t lanes) {
@@ -16,7 +16,8 @@ public:
     }
     bool full() const { return added_ == UINT16_MAX; }
     void empty_into(std::array<uint64_t, batch_lanes> &totals) {
-        for (unsigned i = 0; i < batch_lanes; ++i) totals[i] += counts_[i];
+        for (unsigned i = 0; i < batch_lanes; ++i)
+            totals[i] += counts_[i];
         counts_.fill(0);
         added_ = 0;
     }
@@ -24,7 +25,8 @@ public:
 private:
     static constexpr std::array<uint16_t, batch_lanes> bit_ = [] {
         std::array<uint16_t, batch_lanes> bits{};
-        for (unsigned i = 0; i < batch_lanes; ++i) bits[i] = static_cast<uint16_t>(1u << i);
+        for (unsigned i = 0; i < batch_lanes; ++i)
+            bits[i] = static_cast<uint16_t>(1u << i);
         return bits;
     }();
     std::array<uint16_t, batch_lanes> counts_{};
@@ -33,29 +35,8 @@ private:
 
 template <typename Visit>
 void for_lanes(uint32_t lanes, Visit &&visit) {
-    for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<unsigned>(std::countr_zero(lanes)));
-}
-
-// visit(first, last) for the touched part of every row, widened by `margin` voxels and rows.
-template <typename Word, typename Visit>
-void for_touched(const Window<Word> &window, uint32_t margin, Visit &&visit) {
-    const Hull &hull = window.touched();
-    if (hull.empty()) return;
-    const auto &sizes = window.sizes();
-    const auto low = [&](uint32_t place) { return place - std::min(margin, place - 1); };
-    const auto high = [&](uint32_t place, size_t size) {
-        return std::min<uint32_t>(place + margin, static_cast<uint32_t>(size - 2));
-    };
-    for (size_t z = low(hull.z.first); z <= high(hull.z.last, sizes[2]); ++z)
-        for (size_t y = low(hull.y.first); y <= high(hull.y.last, sizes[1]); ++y) {
-            const size_t row = z * sizes[1] + y;
-            Span span = window.touched_in(row);
-            if (margin != 0)
-                for (const size_t other : {row - 1, row + 1, row - sizes[1], row + sizes[1]})
-                    span.add(window.touched_in(other));
-            if (span.empty()) continue;
-            visit(row * sizes[0] + low(span.first), row * sizes[0] + high(span.last, sizes[0]));
-        }
+    for (; lanes != 0; lanes &= lanes - 1)
+        visit(static_cast<unsigned>(std::countr_zero(lanes)));
 }
 
 } // namespace
@@ -63,25 +44,29 @@ void for_touched(const Window<Word> &window, uint32_t margin, Visit &&visit) {
 template <typename Word>
 void SibsonTally::count(const Window<Word> &window) {
     stolen_.clear();
-    for_touched(window, 0, [&](size_t first, size_t last) {
+    window.for_touched(0, [&](size_t first, size_t last) {
         LaneCounter counter;
         uint32_t label = no_label;
         for (size_t v = first; v <= last; ++v) {
             const uint16_t lanes = window.stolen(v);
-            if (lanes == 0) continue;
+            if (lanes == 0)
+                continue;
             if (window.label(v) != label || counter.full()) {
-                if (label != no_label) counter.empty_into(stolen_[label].voxels);
+                if (label != no_label)
+                    counter.empty_into(stolen_[label].voxels);
                 label = window.label(v);
             }
             counter.add(lanes);
         }
-        if (label != no_label) counter.empty_into(stolen_[label].voxels);
+        if (label != no_label)
+            counter.empty_into(stolen_[label].voxels);
     });
 }
 
 void SibsonTally::row(unsigned lane, std::vector<RawShare> &row) const {
     stolen_.each([&](uint32_t label, const Stolen &stolen) {
-        if (stolen.voxels[lane] != 0) row.push_back({label, static_cast<double>(stolen.voxels[lane])});
+        if (stolen.voxels[lane] != 0)
+            row.push_back({label, static_cast<double>(stolen.voxels[lane])});
     });
 }
 
@@ -93,22 +78,23 @@ LaplaceTally::LaplaceTally(const Grid &grid, uint64_t labels) : border_(labels) 
 template <typename Word>
 void LaplaceTally::count(const Window<Word> &window) {
     border_.clear();
-    const auto &sizes = window.sizes();
-    const std::array<size_t, 3> step = {1, sizes[0], sizes[0] * sizes[1]};
-    for_touched(window, 1, [&](size_t first, size_t last) {
+    const std::array<size_t, 3> step = window.steps();
+    window.for_touched(1, [&](size_t first, size_t last) {
         for (size_t v = first; v <= last; ++v)
-            for (unsigned axis = 0; axis < 3; ++axis) face(window, v, v + step[axis], axis);
+            for (unsigned axis = 0; axis < 3; ++axis)
+                face(window, v, v + step[axis], axis);
     });
 }
 
 // The face between two voxels, `high` being the next one along the axis.
 template <typename Word>
 void LaplaceTally::face(const Window<Word> &window, size_t low, size_t high, unsigned axis) {
-    constexpr std::array<unsigned, 3> backward = {12, 10, 4}; // the numbers of the neighbours at -x, -y, -z
     const uint32_t a = window.stolen(low), b = window.stolen(high);
-    if (a == b) return;
-    const Word weight = window.back(high, backward[axis]);
-    if (weight == far_away<Word>) return;
+    if (a == b)
+        return;
+    const Word weight = window.back(high, backward_face[axis]);
+    if (weight == far_away<Word>)
+        return;
     cross(window, low, high, weight, a & ~b, axis);
     cross(window, high, low, weight, b & ~a, axis);
 }
@@ -116,7 +102,8 @@ void LaplaceTally::face(const Window<Word> &window, size_t low, size_t high, uns
 template <typename Word>
 void LaplaceTally::cross(const Window<Word> &window, size_t stolen, size_t kept, Word weight, uint32_t lanes,
                          unsigned axis) {
-    if (lanes == 0) return;
+    if (lanes == 0)
+        return;
     Border &border = border_[window.label(kept)];
     const uint64_t beyond = uint64_t{weight} + window.nearest(kept);
     const Word *reach = window.reach(stolen);
@@ -128,9 +115,11 @@ void LaplaceTally::cross(const Window<Word> &window, size_t stolen, size_t kept,
 
 void LaplaceTally::row(unsigned lane, std::vector<RawShare> &row) const {
     border_.each([&](uint32_t label, const Border &border) {
-        if (border.shortest[lane] == UINT64_MAX) return;
+        if (border.shortest[lane] == UINT64_MAX)
+            return;
         double area = 0;
-        for (unsigned axis = 0; axis < 3; ++axis) area += static_cast<double>(border.faces[axis][lane]) * area_[axis];
+        for (unsigned axis = 0; axis < 3; ++axis)
+            area += static_cast<double>(border.faces[axis][lane]) * area_[axis];
         row.push_back({label, area / static_cast<double>(border.shortest[lane])});
     });
 }

@@ -25,13 +25,15 @@ public:
         return entries_[place_[label]];
     }
     void clear() {
-        for (const uint32_t label : labels_) place_[label] = none;
+        for (const uint32_t label : labels_)
+            place_[label] = none;
         labels_.clear();
         entries_.clear();
     }
     template <typename Visit>
     void each(Visit &&visit) const {
-        for (size_t i = 0; i < labels_.size(); ++i) visit(labels_[i], entries_[i]);
+        for (size_t i = 0; i < labels_.size(); ++i)
+            visit(labels_[i], entries_[i]);
     }
 
 private:

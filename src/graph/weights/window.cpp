@@ -5,11 +5,18 @@ namespace locus::graph {
 
 namespace {
 
-std::array<size_t, 3> padded(const Box &box) {
-    return {box.extent[0] + 2, box.extent[1] + 2, box.extent[2] + 2};
-}
+std::array<size_t, 3> padded(const Box &box) { return {box.extent[0] + 2, box.extent[1] + 2, box.extent[2] + 2}; }
 
 } // namespace
+
+Box widen(const Grid &grid, const Box &box, uint64_t margin) {
+    Box wide;
+    for (unsigned a = 0; a < 3; ++a) {
+        wide.origin[a] = box.origin[a] - std::min(margin, box.origin[a]);
+        wide.extent[a] = std::min(grid.dims()[a], box.origin[a] + box.extent[a] + margin) - wide.origin[a];
+    }
+    return wide;
+}
 
 template <typename Word>
 uint64_t Window<Word>::bytes(const Box &box) {
@@ -22,6 +29,7 @@ uint64_t Window<Word>::bytes(const Box &box) {
 template <typename Word>
 void Window<Word>::open(const Field &field, const Box &box) {
     box_ = Box{};
+    bounded_ = false;
     sizes_ = padded(box);
     const size_t rows = sizes_[1] * sizes_[2], voxels = rows * sizes_[0];
     nearest_.assign(voxels, far_away<Word>);
@@ -29,10 +37,12 @@ void Window<Word>::open(const Field &field, const Box &box) {
     back_.assign(voxels * backward_edges, far_away<Word>);
     reach_.resize(voxels);
     stolen_.assign(voxels, 0);
-    for (std::vector<Span> *spans : {&fresh_[0], &fresh_[1], &touched_}) spans->assign(rows, Span{});
+    for (std::vector<Span> *spans : {&fresh_[0], &fresh_[1], &touched_})
+        spans->assign(rows, Span{});
     box_ = box;
     for (uint64_t z = 0; z < box.extent[2]; ++z)
-        for (uint64_t y = 0; y < box.extent[1]; ++y) fill_row(field, y, z);
+        for (uint64_t y = 0; y < box.extent[1]; ++y)
+            fill_row(field, y, z);
     for (size_t v = 0; v < voxels; ++v)
         reach_[v].lane.fill(nearest_[v]);
 
@@ -58,13 +68,15 @@ void Window<Word>::fill_row(const Field &field, uint64_t y, uint64_t z) {
     const size_t first = local(start);
     const uint64_t voxel = grid.index(start[0], start[1], start[2]);
     for (uint64_t x = 0; x < box_.extent[0]; ++x) {
-        if (!field.reached(voxel + x)) continue;
+        if (!field.reached(voxel + x))
+            continue;
         nearest_[first + x] = static_cast<Word>(field.distance(voxel + x));
         label_[first + x] = field.label(voxel + x);
         const uint32_t inside = grid.inside({start[0] + x, start[1], start[2]}) & field.graph().open_edges(voxel + x);
         for (unsigned n = 0; n < backward_edges; ++n) {
             const Neighbour &to = grid.neighbour(n);
-            if ((inside >> n & 1) == 0 || !field.reached(voxel + x + static_cast<uint64_t>(to.step))) continue;
+            if ((inside >> n & 1) == 0 || !field.reached(voxel + x + static_cast<uint64_t>(to.step)))
+                continue;
             const uint64_t weight = field.graph().weight(voxel + x, to);
             if (weight != 0)
                 back_[(first + x) * backward_edges + n] = static_cast<Word>(std::min<uint64_t>(weight, far_away<Word>));
@@ -75,38 +87,48 @@ void Window<Word>::fill_row(const Field &field, uint64_t y, uint64_t z) {
 template <typename Word>
 bool Window<Word>::holds(const Box &box) const {
     for (unsigned a = 0; a < 3; ++a)
-        if (box.origin[a] < box_.origin[a] || box.origin[a] + box.extent[a] > box_.origin[a] + box_.extent[a]) return false;
+        if (box.origin[a] < box_.origin[a] || box.origin[a] + box.extent[a] > box_.origin[a] + box_.extent[a])
+            return false;
     return true;
 }
 
 template <typename Word>
-void Window<Word>::start(size_t local, unsigned lane) {
-    reach_[local].lane[lane] = 0;
+void Window<Word>::bound(const std::array<Word, batch_lanes> &bounds) {
+    bounds_.lane = bounds;
+    bounded_ = true;
+    run_.bound = bounds_.lane.data();
+    std::fill(reach_.begin(), reach_.end(), bounds_);
+}
+
+template <typename Word>
+void Window<Word>::start(size_t local, unsigned lane, Word distance) {
+    Word &word = reach_[local].lane[lane];
+    if (distance >= word)
+        return;
+    word = distance;
     const size_t row = local / sizes_[0];
     const auto x = static_cast<uint32_t>(local % sizes_[0]);
-    for (Span *spans : {run_.fresh, run_.changed}) spans[row].add(x);
+    for (Span *spans : {run_.fresh, run_.changed})
+        spans[row].add(x);
     run_.fresh_rows.add(row % sizes_[1], row / sizes_[1]);
 }
 
 template <typename Word>
-void Window<Word>::settle(const SettleKernels<Word> &kernels) { kernels.settle(run_); }
-
-template <typename Word>
-void Window<Word>::restore(const SettleKernels<Word> &kernels) { kernels.restore(run_); }
-
-template <typename Word>
 bool Window<Word>::too_small(const Grid &grid) const {
     const Hull &hull = run_.touched;
-    if (hull.empty()) return false;
+    if (hull.empty())
+        return false;
     const auto beyond = [&](unsigned axis, uint64_t low, uint64_t high) {
         return (low <= 1 && box_.origin[axis] > 0) ||
                (high >= box_.extent[axis] && box_.origin[axis] + box_.extent[axis] < grid.dims()[axis]);
     };
-    if (beyond(1, hull.y.first, hull.y.last) || beyond(2, hull.z.first, hull.z.last)) return true;
+    if (beyond(1, hull.y.first, hull.y.last) || beyond(2, hull.z.first, hull.z.last))
+        return true;
     for (size_t z = hull.z.first; z <= hull.z.last; ++z)
         for (size_t y = hull.y.first; y <= hull.y.last; ++y) {
             const Span &span = touched_[z * sizes_[1] + y];
-            if (!span.empty() && beyond(0, span.first, span.last)) return true;
+            if (!span.empty() && beyond(0, span.first, span.last))
+                return true;
         }
     return false;
 }

@@ -1,4 +1,5 @@
-// The part of the grid that a batch of sixteen queries works on, copied into dense arrays with a border that nothing crosses.
+// The part of the grid that a batch of sixteen queries works on, copied into dense arrays with a border that nothing
+// crosses.
 #pragma once
 
 #include "graph/weights/field.hpp"
@@ -7,6 +8,9 @@
 #include <vector>
 
 namespace locus::graph {
+
+// `box` and up to `margin` voxels around it, as far as the grid goes.
+Box widen(const Grid &grid, const Box &box, uint64_t margin);
 
 template <typename Word>
 class Window {
@@ -24,7 +28,15 @@ public:
         return (place[0] - box_.origin[0] + 1) +
                sizes_[0] * ((place[1] - box_.origin[1] + 1) + sizes_[1] * (place[2] - box_.origin[2] + 1));
     }
-    const std::array<size_t, 3> &sizes() const { return sizes_; }
+    // From a voxel to the next one along each axis.
+    std::array<size_t, 3> steps() const { return {1, sizes_[0], sizes_[0] * sizes_[1]}; }
+    size_t voxels() const { return sizes_[0] * sizes_[1] * sizes_[2]; }
+    // The voxel of the grid that a local number, not of the border, means.
+    uint64_t voxel(const Grid &grid, size_t local) const {
+        const size_t row = local / sizes_[0];
+        return grid.index(box_.origin[0] + local % sizes_[0] - 1, box_.origin[1] + row % sizes_[1] - 1,
+                          box_.origin[2] + row / sizes_[1] - 1);
+    }
 
     Word nearest(size_t local) const { return nearest_[local]; }
     uint32_t label(size_t local) const { return label_[local]; }
@@ -32,17 +44,23 @@ public:
     const Word *reach(size_t local) const { return reach_[local].lane.data(); }
     uint16_t stolen(size_t local) const { return stolen_[local]; }
 
-    // Start lane `lane` at a voxel: it is reached at distance 0.
-    void start(size_t local, unsigned lane);
+    // Where the words of all lanes start: at the distance to the nearest seed (after open()), or at a bound per lane.
+    void bound(const std::array<Word, batch_lanes> &bounds);
+    // Start lane `lane` at a voxel, which is reached at `distance`, unless its word is no larger already.
+    void start(size_t local, unsigned lane, Word distance = 0);
     // Run all started lanes to their fixpoint.
-    void settle(const SettleKernels<Word> &kernels);
-    // The rows y + sizes[1] * z that changed since the last restore, and the part of each.
-    const Hull &touched() const { return run_.touched; }
-    Span touched_in(size_t row) const { return touched_[row]; }
+    void settle(const SettleKernels<Word> &kernels) { kernels.settle(run_); }
+    // Let stolen() say which lanes lie below the distance to the nearest seed.
+    void mark(const SettleKernels<Word> &kernels) { kernels.mark(run_); }
     // The touched voxels reach the edge of the box where the grid goes on.
     bool too_small(const Grid &grid) const;
     // Forget the lanes.
-    void restore(const SettleKernels<Word> &kernels);
+    void restore(const SettleKernels<Word> &kernels) {
+        bounded_ ? kernels.restore_bound(run_) : kernels.restore_nearest(run_);
+    }
+    // visit(first, last) for the touched part of every row, widened by `margin` voxels and rows: local numbers.
+    template <typename Visit>
+    void for_touched(uint32_t margin, Visit &&visit) const;
 
 private:
     void fill_row(const Field &field, uint64_t y, uint64_t z);
@@ -56,11 +74,35 @@ private:
         std::array<Word, batch_lanes> lane;
     };
     std::vector<Batch> reach_;
+    Batch bounds_{};
+    bool bounded_ = false;
     std::vector<uint16_t> stolen_;
     std::vector<Span> fresh_[2];
     std::vector<Span> touched_;
     Settle<Word> run_{};
 };
+
+template <typename Word>
+template <typename Visit>
+void Window<Word>::for_touched(uint32_t margin, Visit &&visit) const {
+    const Hull &hull = run_.touched;
+    if (hull.empty())
+        return;
+    const auto low = [&](uint32_t place) { return place - std::min(margin, place - 1); };
+    const auto high = [&](uint32_t place, size_t size) {
+        return std::min<uint32_t>(place + margin, static_cast<uint32_t>(size - 2));
+    };
+    for (size_t z = low(hull.z.first); z <= high(hull.z.last, sizes_[2]); ++z)
+        for (size_t y = low(hull.y.first); y <= high(hull.y.last, sizes_[1]); ++y) {
+            const size_t row = z * sizes_[1] + y;
+            Span span = touched_[row];
+            if (margin != 0)
+                for (const size_t other : {row - 1, row + 1, row - sizes_[1], row + sizes_[1]})
+                    span.add(touched_[other]);
+            if (!span.empty())
+                visit(row * sizes_[0] + low(span.first), row * sizes_[0] + high(span.last, sizes_[0]));
+        }
+}
 
 extern template class Window<uint32_t>;
 extern template class Window<uint64_t>;

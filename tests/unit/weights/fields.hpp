@@ -23,7 +23,8 @@ struct Solved {
         std::mt19937 rng(random);
         while (sources.size() < seeds) {
             const uint64_t voxel = rng() % graph.grid().voxels();
-            if (graph.passable(voxel)) sources.push_back({voxel, 0, static_cast<uint32_t>(sources.size())});
+            if (graph.passable(voxel))
+                sources.push_back({voxel, 0, static_cast<uint32_t>(sources.size())});
         }
         solve(cutoff);
     }
@@ -42,7 +43,8 @@ inline std::vector<float> noise(uint64_t voxels, uint32_t random, double holes =
     std::vector<float> material(voxels);
     for (float &c : material) {
         c = value(rng);
-        if (chance(rng) < holes) c = std::numeric_limits<float>::quiet_NaN();
+        if (chance(rng) < holes)
+            c = std::numeric_limits<float>::quiet_NaN();
     }
     return material;
 }

@@ -28,7 +28,8 @@ std::vector<uint64_t> all_voxels(const Solved &solved) {
 
 std::string text(std::span<const Share> row) {
     std::string text;
-    for (const Share &share : row) text += std::to_string(share.label) + ":" + std::to_string(share.weight) + " ";
+    for (const Share &share : row)
+        text += std::to_string(share.label) + ":" + std::to_string(share.weight) + " ";
     return text;
 }
 
@@ -36,17 +37,19 @@ void expect_as_defined(const Solved &solved, const Rows &rows, uint32_t method, 
                        uint32_t most = 0) {
     const Field field = solved.field();
     for (size_t i = 0; i < voxels.size(); ++i) {
-        const auto row = method == LOCUS_METHOD_SIBSON ? naive::sibson(field, voxels[i]) : naive::laplace(field, voxels[i]);
+        const auto row =
+            method == LOCUS_METHOD_SIBSON ? naive::sibson(field, voxels[i]) : naive::laplace(field, voxels[i]);
         const auto expected = naive::finished(row, most);
-        ASSERT_TRUE(std::ranges::equal(rows.row(i), expected))
-            << "method " << method << ", voxel " << voxels[i] << ": " << text(rows.row(i)) << "instead of " << text(expected);
+        ASSERT_TRUE(std::ranges::equal(rows.row(i), expected)) << "method " << method << ", voxel " << voxels[i] << ": "
+                                                               << text(rows.row(i)) << "instead of " << text(expected);
     }
 }
 
 std::vector<Simd> targets() {
     std::vector<Simd> targets;
     for (const Simd simd : {Simd::scalar, Simd::sse4, Simd::avx2, Simd::avx512, Simd::neon})
-        if (simd_available(simd)) targets.push_back(simd);
+        if (simd_available(simd))
+            targets.push_back(simd);
     return targets;
 }
 
@@ -60,8 +63,8 @@ TEST(Natural, EveryInstructionSetGivesTheRowsOfTheDefinition) {
 
 TEST(Natural, EveryRuleAndConnectivityAndSpacing) {
     uint32_t random = 10;
-    for (const uint32_t rule : {LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MAX_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS,
-                                LOCUS_WEIGHT_UNIFORM})
+    for (const uint32_t rule :
+         {LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MAX_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS, LOCUS_WEIGHT_UNIFORM})
         for (const uint32_t connectivity : {6u, 18u, 26u}) {
             auto options = options_for(9, 8, 7);
             options.weight_rule = rule;
