@@ -1,7 +1,8 @@
 /* locus/locus.h - everything of Locus but the file formats (locus/volume.h, locus/records.h).
  *
  * Locus keeps data that changes all the time close in memory. It holds two engines:
- * - the voxel graph (locus/graph.h, locus/diagram.h): compliance distances and Voronoi diagrams on 3-D material maps;
+ * - the voxel graph (locus/graph.h, locus/diagram.h, locus/weights.h): compliance distances, Voronoi diagrams and
+ *   interpolation weights on 3-D material maps;
  * - the PMQ (locus/pmq.h): the live window of a stream of geo-located records, sorted along the Z-curve.
  *
  * Rules that hold everywhere:
@@ -23,5 +24,6 @@
 #include <locus/graph.h>
 #include <locus/pmq.h>
 #include <locus/status.h>
+#include <locus/weights.h>
 
 #endif

@@ -28,8 +28,8 @@ locus_place_options place_defaults() {
     return {sizeof(locus_place_options), 0, 0, 100, LOCUS_PLACE_COMPLIANCE, 0, nullptr, nullptr};
 }
 
-graph::Diagram &of(locus_diagram *diagram) { return need(diagram, "diagram").diagram; }
-const graph::Diagram &of(const locus_diagram *diagram) { return need(diagram, "diagram").diagram; }
+graph::Diagram &of(locus_diagram *diagram) { return *need(diagram, "diagram").diagram; }
+const graph::Diagram &of(const locus_diagram *diagram) { return *need(diagram, "diagram").diagram; }
 
 // Hand a list over: its length always, its elements where there is room.
 template <typename T>
@@ -59,7 +59,7 @@ locus_status locus_diagram_create(locus_graph *graph, const locus_diagram_option
         need(diagram, "diagram");
         *diagram = nullptr;
         const locus_diagram_options whole = read_options(options, defaults(), first_options_size);
-        *diagram = new locus_diagram{graph::Diagram(need(graph, "graph").graph, whole)};
+        *diagram = new locus_diagram{std::make_shared<graph::Diagram>(need(graph, "graph").graph, whole)};
     });
 }
 

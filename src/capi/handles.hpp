@@ -3,6 +3,7 @@
 
 #include "graph/diagram.hpp"
 #include "graph/graph.hpp"
+#include "graph/weights/interpolation.hpp"
 
 #include <memory>
 
@@ -11,7 +12,11 @@ struct locus_graph {
 };
 
 struct locus_diagram {
-    locus::graph::Diagram diagram;
+    std::shared_ptr<locus::graph::Diagram> diagram; // weights hold it too
+};
+
+struct locus_weights {
+    locus::graph::Interpolation weights;
 };
 
 namespace locus {

@@ -41,8 +41,12 @@ public:
 
     // The result of the latest solve; all throw LOCUS_E_STATE where there is none.
     const Words &words() const;
+    // Throws LOCUS_E_STATE also where the graph was edited since.
+    void check_unchanged() const;
     // The seeds of that solve, by slot; their place in the words' labels is `slot`.
     const std::vector<Seed> &solved_seeds() const { return solved_seeds_; }
+    // Whether the seeds are still those of that solve.
+    bool seeds_changed() const { return seeds_changed_; }
     // Positions in solved_seeds() by slot, UINT32_MAX for a slot without a seed.
     const std::vector<uint32_t> &position_of_slot() const { return position_of_slot_; }
     void labels(const Box &box, uint32_t *labels) const;
@@ -58,7 +62,6 @@ private:
     Seed checked(const locus_seed &seed, const std::string &name) const;
     uint64_t checked_voxel(uint64_t x, uint64_t y, uint64_t z, const std::string &name) const;
     size_t position(uint32_t id, const std::string &name) const;
-    void check_unchanged() const;
     uint64_t cutoff() const;
     void renumber();
 

@@ -92,6 +92,87 @@ inline Row laplace(const Field &field, uint64_t query) {
     return row;
 }
 
+// Distances from the sources, by Dijkstra; UINT64_MAX where they do not reach.
+inline std::vector<uint64_t> distances(const Field &field, const std::vector<std::pair<uint64_t, uint64_t>> &sources) {
+    std::vector<uint64_t> distance(field.grid().voxels(), UINT64_MAX);
+    using Entry = std::pair<uint64_t, uint64_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    const auto reach = [&](uint64_t voxel, uint64_t d) {
+        if (d >= distance[voxel])
+            return;
+        distance[voxel] = d;
+        queue.push({d, voxel});
+    };
+    for (const auto &[voxel, d] : sources)
+        reach(voxel, d);
+    while (!queue.empty()) {
+        const auto [d, voxel] = queue.top();
+        queue.pop();
+        if (d != distance[voxel])
+            continue;
+        const uint32_t inside = field.grid().inside(field.grid().place(voxel));
+        for (const Neighbour &to : field.grid().neighbours()) {
+            const uint64_t next = voxel + static_cast<uint64_t>(to.step);
+            const uint64_t weight = inside >> to.number & 1 ? field.graph().weight(voxel, to) : 0;
+            if (weight != 0 && field.reached(next))
+                reach(next, d + weight);
+        }
+    }
+    return distance;
+}
+
+// visit(inside, outside) for every face with an edge through which the cell of `label` ends.
+template <typename Visit>
+void for_border(const Field &field, uint32_t label, Visit &&visit) {
+    for (uint64_t v = 0; v < field.grid().voxels(); ++v) {
+        if (!field.reached(v) || field.label(v) != label)
+            continue;
+        const uint32_t inside = field.grid().inside(field.grid().place(v));
+        for (const Neighbour &to : field.grid().neighbours()) {
+            if (std::abs(to.dx) + std::abs(to.dy) + std::abs(to.dz) != 1 || (inside >> to.number & 1) == 0)
+                continue;
+            const uint64_t next = v + static_cast<uint64_t>(to.step);
+            if (field.reached(next) && field.label(next) != label && field.graph().weight(v, to) != 0)
+                visit(v, next);
+        }
+    }
+}
+
+// The distance ratio of every voxel, seed after seed, before normalising.
+inline std::vector<Row> ratio(const Field &field, const std::vector<Source> &seeds) {
+    std::vector<Row> rows(field.grid().voxels());
+    for (const Source &seed : seeds) {
+        uint64_t farthest = 0;
+        for (uint64_t v = 0; v < rows.size(); ++v)
+            if (field.reached(v) && field.label(v) == seed.label)
+                farthest = std::max(farthest, field.distance(v));
+        const auto to_seed = distances(field, {{seed.voxel, seed.distance}});
+        std::vector<std::pair<uint64_t, uint64_t>> border;
+        for_border(field, seed.label, [&](uint64_t inside, uint64_t outside) {
+            farthest = std::max(farthest, field.distance(outside));
+            const uint64_t middle = (field.distance(outside) + to_seed[outside]) / 2;
+            border.emplace_back(outside, (to_seed[outside] - field.distance(outside)) / 2);
+            border.emplace_back(inside, middle > field.distance(inside) ? middle - field.distance(inside) : 0);
+        });
+        const auto to_border = distances(field, border);
+        for (uint64_t v = 0; v < rows.size(); ++v) {
+            if (!field.reached(v))
+                continue;
+            const auto dp = static_cast<double>(to_seed[v]), db = static_cast<double>(to_border[v]);
+            double weight = 0;
+            if (field.label(v) == seed.label)
+                weight = dp == 0 || border.empty() ? 1 : (1 + db / (dp + db)) / 2;
+            else if (to_seed[v] <= 2 * farthest && dp > db)
+                weight = (1 - db / (dp - db)) / 2;
+            if (weight > 1 - 1e-4)
+                weight = 1;
+            if (weight >= 1e-4)
+                rows[v][seed.label] = weight;
+        }
+    }
+    return rows;
+}
+
 // The row as the library gives it.
 inline std::vector<Share> finished(const Row &row, uint32_t most = 0) {
     std::vector<RawShare> raw;

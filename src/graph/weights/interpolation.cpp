@@ -1,0 +1,221 @@
+#include "graph/weights/interpolation.hpp"
+
+#include "graph/weights/affected.hpp"
+#include "graph/weights/natural.hpp"
+#include "graph/weights/ratio.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace locus::graph {
+namespace {
+
+constexpr uint64_t smallest_budget = uint64_t{1} << 20;
+
+std::vector<uint64_t> voxels_of(const Grid &grid, const Box &box) {
+    std::vector<uint64_t> voxels;
+    voxels.reserve(box.extent[0] * box.extent[1] * box.extent[2]);
+    for (uint64_t z = 0; z < box.extent[2]; ++z)
+        for (uint64_t y = 0; y < box.extent[1]; ++y)
+            for (uint64_t x = 0; x < box.extent[0]; ++x)
+                voxels.push_back(grid.index(box.origin[0] + x, box.origin[1] + y, box.origin[2] + z));
+    return voxels;
+}
+
+std::vector<uint32_t> ids_by_slot(const Diagram &diagram) {
+    std::vector<uint32_t> ids(diagram.position_of_slot().size(), LOCUS_NO_SEED);
+    for (const Seed &seed : diagram.solved_seeds())
+        ids[seed.slot] = seed.id;
+    return ids;
+}
+
+} // namespace
+
+Interpolation::Interpolation(std::shared_ptr<const Diagram> diagram, const locus_weights_options &options,
+                             const Box &box)
+    : diagram_(std::move(diagram)), box_(box) {
+    take_options(options);
+    diagram_->graph().grid().check(box);
+    voxels_ = voxels_of(diagram_->graph().grid(), box);
+    compute_all();
+}
+
+Interpolation::Interpolation(std::shared_ptr<const Diagram> diagram, const locus_weights_options &options,
+                             std::span<const uint64_t> voxels)
+    : diagram_(std::move(diagram)), voxels_(voxels.begin(), voxels.end()) {
+    take_options(options);
+    const uint64_t all = diagram_->graph().grid().voxels();
+    for (size_t i = 0; i < voxels_.size(); ++i)
+        require(voxels_[i] < all, "voxels[", i, "] is ", voxels_[i], ", outside the grid of ", all, " voxels");
+    compute_all();
+}
+
+void Interpolation::take_options(const locus_weights_options &options) {
+    require(options.method <= LOCUS_METHOD_DISTANCE_RATIO, "method is ", options.method, ", none of LOCUS_METHOD_");
+    require(options.batch_bytes >= smallest_budget, "batch_bytes is ", options.batch_bytes, ", less than ",
+            smallest_budget);
+    options_ = options;
+}
+
+void Interpolation::check_diagram() const {
+    diagram_->check_unchanged();
+    if (diagram_->seeds_changed())
+        fail(LOCUS_E_STATE, "the seeds changed since the diagram was solved: solve it again");
+}
+
+void Interpolation::compute_all() {
+    check_diagram();
+    adopt(compute({}, nullptr));
+}
+
+// The rows with seeds by slot.
+Rows Interpolation::compute(std::span<const uint64_t> rows, const Rows *base) const {
+    Progress progress(options_.progress, options_.progress_user);
+    const Graph &graph = diagram_->graph();
+    const Field field(graph, diagram_->words());
+    if (options_.method == LOCUS_METHOD_DISTANCE_RATIO) {
+        std::vector<Source> seeds;
+        for (const Seed &seed : diagram_->solved_seeds())
+            seeds.push_back({seed.voxel, seed.steps, seed.slot});
+        const RowPile pile = ratio_rows(
+            {field, seeds, options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(), voxels_},
+            progress);
+        return assemble(voxels_.size(), {&pile, 1});
+    }
+    const auto piles = natural_rows({field, options_.method, options_.max_per_row, options_.batch_bytes,
+                                     graph.threads(), graph.simd(), voxels_, rows},
+                                    progress);
+    return assemble(voxels_.size(), piles, base);
+}
+
+// Keep rows with seeds by slot, and the diagram they belong to. Nothing is changed when memory runs out.
+void Interpolation::adopt(Rows rows) {
+    Words words = diagram_->words();
+    std::vector<uint32_t> ids, id_of_slot = ids_by_slot(*diagram_);
+    for (const Seed &seed : diagram_->solved_seeds())
+        ids.push_back(seed.id);
+    for (Share &share : rows.shares)
+        share.label = diagram_->position_of_slot()[share.label];
+    rows_ = std::move(rows);
+    words_ = std::move(words);
+    ids_ = std::move(ids);
+    id_of_slot_ = std::move(id_of_slot);
+    version_ = diagram_->graph().version();
+}
+
+// No slot has been given to another seed since the rows were made.
+bool Interpolation::same_slots() const {
+    const std::vector<uint32_t> now = ids_by_slot(*diagram_);
+    for (size_t slot = 0; slot < std::min(now.size(), id_of_slot_.size()); ++slot)
+        if (now[slot] != id_of_slot_[slot] && now[slot] != LOCUS_NO_SEED && id_of_slot_[slot] != LOCUS_NO_SEED)
+            return false;
+    return true;
+}
+
+std::vector<uint64_t> Interpolation::affected() const {
+    const auto voxels = affected_voxels(diagram_->graph(), words_, version_, diagram_->words());
+    std::vector<uint64_t> rows;
+    for (uint64_t row = 0; row < voxels_.size(); ++row)
+        if (voxels[voxels_[row]])
+            rows.push_back(row);
+    return rows;
+}
+
+std::vector<uint64_t> Interpolation::update() {
+    check_diagram();
+    // The rows as they are, with seeds by slot again.
+    Rows old = rows_;
+    std::unordered_map<uint32_t, uint32_t> slot_of_id;
+    for (uint32_t slot = 0; slot < id_of_slot_.size(); ++slot)
+        slot_of_id[id_of_slot_[slot]] = slot;
+    for (Share &share : old.shares)
+        share.label = slot_of_id[ids_[share.label]];
+
+    if (options_.method != LOCUS_METHOD_DISTANCE_RATIO && same_slots()) {
+        std::vector<uint64_t> rows = affected();
+        adopt(rows.empty() ? std::move(old) : compute(rows, &old));
+        return rows;
+    }
+    const Rows fresh = compute({}, nullptr);
+    std::vector<uint64_t> rows;
+    const bool comparable = same_slots();
+    for (uint64_t row = 0; row < voxels_.size(); ++row)
+        if (!comparable || !std::ranges::equal(fresh.row(row), old.row(row)))
+            rows.push_back(row);
+    adopt(fresh);
+    return rows;
+}
+
+uint32_t Interpolation::position(uint32_t id) const {
+    const auto found = std::find(ids_.begin(), ids_.end(), id);
+    require(found != ids_.end(), "no seed has the id ", id);
+    return static_cast<uint32_t>(found - ids_.begin());
+}
+
+void Interpolation::dense(uint64_t first, uint64_t count, std::span<const uint32_t> ids, float *out) const {
+    constexpr size_t none = std::numeric_limits<size_t>::max();
+    std::vector<size_t> column(ids_.size(), none);
+    for (size_t j = 0; j < ids.size(); ++j) {
+        size_t &place = column[position(ids[j])];
+        require(place == none, "ids[", j, "] is ", ids[j], ", which stands there twice");
+        place = j;
+    }
+    std::fill_n(out, count * ids.size(), 0.0f);
+    for (uint64_t i = 0; i < count; ++i)
+        for (const Share &share : rows_.row(first + i))
+            if (column[share.label] != none)
+                out[i * ids.size() + column[share.label]] = share.weight;
+}
+
+void Interpolation::interpolate(uint64_t first, uint64_t count, const float *values, uint32_t components,
+                                float *out) const {
+    std::vector<double> sum(components);
+    for (uint64_t i = 0; i < count; ++i) {
+        const auto row = rows_.row(first + i);
+        std::fill(sum.begin(), sum.end(), row.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+        for (const Share &share : row)
+            for (uint32_t c = 0; c < components; ++c)
+                sum[c] += double{share.weight} * double{values[size_t{share.label} * components + c]};
+        for (uint32_t c = 0; c < components; ++c)
+            out[i * components + c] = static_cast<float>(sum[c]);
+    }
+}
+
+void Interpolation::gradients(uint64_t first, uint64_t count, uint32_t id, float *out) const {
+    if (!box_)
+        fail(LOCUS_E_STATE, "the weights are those of a list of voxels, not of a box");
+    if (diagram_->graph().version() != version_)
+        fail(LOCUS_E_STATE, "the graph was edited since the weights were made: update them first");
+    const uint32_t seed = position(id);
+    const Grid &grid = diagram_->graph().grid();
+    const auto weight = [&](uint64_t row) {
+        const auto shares = rows_.row(row);
+        const auto found = std::ranges::find(shares, seed, &Share::label);
+        return found == shares.end() ? 0.0 : double{found->weight};
+    };
+    const std::array<uint64_t, 3> step = {1, box_->extent[0], box_->extent[0] * box_->extent[1]};
+    for (uint64_t i = 0; i < count; ++i) {
+        const uint64_t row = first + i;
+        const std::array<uint64_t, 3> place = {row % box_->extent[0], row / step[1] % box_->extent[1], row / step[2]};
+        for (unsigned a = 0; a < 3; ++a) {
+            // What lies on the one and on the other side, as far as it is joined to the voxel.
+            double low = weight(row), high = low, length = 0;
+            const auto joined = [&](uint64_t other) {
+                return !rows_.row(other).empty() && diagram_->graph().weight_between(voxels_[row], voxels_[other]) != 0;
+            };
+            if (place[a] > 0 && joined(row - step[a])) {
+                low = weight(row - step[a]);
+                length += grid.spacing()[a];
+            }
+            if (place[a] + 1 < box_->extent[a] && joined(row + step[a])) {
+                high = weight(row + step[a]);
+                length += grid.spacing()[a];
+            }
+            out[i * 3 + a] = length > 0 ? static_cast<float>((high - low) / length) : 0.0f;
+        }
+    }
+}
+
+} // namespace locus::graph
