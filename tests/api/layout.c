@@ -46,6 +46,14 @@ int main(void) {
     FIELD(locus_cell_pair, b, 4);
     FIELD(locus_cell_pair, edges, 8);
 
+    SIZE(locus_weights_options, 40);
+    FIELD(locus_weights_options, struct_size, 0);
+    FIELD(locus_weights_options, method, 8);
+    FIELD(locus_weights_options, max_per_row, 12);
+    FIELD(locus_weights_options, batch_bytes, 16);
+    FIELD(locus_weights_options, progress, 24);
+    FIELD(locus_weights_options, progress_user, 32);
+
     SIZE(locus_place_options, 48);
     FIELD(locus_place_options, struct_size, 0);
     FIELD(locus_place_options, count, 8);
