@@ -41,6 +41,8 @@ typedef struct locus_text156 {
 } locus_text156;
 #pragma pack(pop)
 
+/* How records lie in memory. Both layouts give the same answers. */
+#define LOCUS_LAYOUT_RING_LEAVES 0  /* small leaves along the Z-curve, each a ring in order of arrival: fast, no long pauses */
 #define LOCUS_LAYOUT_PACKED_ARRAY 1 /* the thesis' packed-memory array, sections 3.2 and 3.4 */
 
 /* How the packed array finds the records of a quadrant. */

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "pmq/layout/packed_array.hpp"
+#include "pmq/layout/ring_leaves.hpp"
 
 #include <bit>
 
@@ -44,6 +45,8 @@ void check_packed_array(const locus_pmq_options &o) {
             o.tau_leaf, " are not 0 <= rho_leaf < rho_root < tau_root < tau_leaf <= 1");
     require(2 * o.rho_root < o.tau_root, "options.rho_root ", o.rho_root, " is not below half of tau_root ",
             o.tau_root);
+    if (o.layout != LOCUS_LAYOUT_PACKED_ARRAY)
+        return;
     const uint64_t smallest = PackedArray::smallest_bytes(record_format(o), densities_of(o));
     require(o.max_bytes >= smallest, "options.max_bytes is ", o.max_bytes,
             ", too little for one record with segments of ", o.segment_slots, " slots: at least ", smallest);
@@ -54,7 +57,7 @@ void check_packed_array(const locus_pmq_options &o) {
 void check_options(const locus_pmq_options &o) {
     require(o.record == LOCUS_RECORD_POINT32 || o.record == LOCUS_RECORD_TEXT156, "options.record is ", o.record,
             ", not a LOCUS_RECORD_");
-    require(o.layout == LOCUS_LAYOUT_PACKED_ARRAY, "options.layout is ", o.layout, ", not a LOCUS_LAYOUT_");
+    require(o.layout == LOCUS_LAYOUT_RING_LEAVES || o.layout == LOCUS_LAYOUT_PACKED_ARRAY, "options.layout is ", o.layout, ", not a LOCUS_LAYOUT_");
     require(o.future == LOCUS_FUTURE_REFUSE || o.future == LOCUS_FUTURE_CLAMP, "options.future is ", o.future,
             ", not a LOCUS_FUTURE_");
     require(o.horizon > 0, "options.horizon is ", o.horizon, ", not positive");
@@ -70,6 +73,8 @@ const RecordFormat &record_format(const locus_pmq_options &options) noexcept {
 
 std::unique_ptr<Layout> make_layout(const locus_pmq_options &options) {
     const Limits limits{options.max_records, options.max_bytes};
+    if (options.layout == LOCUS_LAYOUT_RING_LEAVES)
+        return std::make_unique<RingLeaves>(record_format(options), limits);
     return std::make_unique<PackedArray>(record_format(options), densities_of(options), limits,
                                          options.index == LOCUS_INDEX_EXPLICIT);
 }

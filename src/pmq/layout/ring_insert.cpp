@@ -1,0 +1,265 @@
+// Insertion: records are appended to their leaves in order of arrival, in groups, so that the memory one record waits
+// for is fetched while others are found. A full leaf is split, or joined by an empty one.
+#include "pmq/layout/ring_leaves.hpp"
+
+#include "pmq/eviction.hpp"
+
+#include <algorithm>
+
+namespace locus::pmq {
+namespace {
+
+constexpr size_t group_size = 32;
+// Readers may have to wait for a change of so many records; larger batches leave the version they read alone.
+constexpr size_t most_alone = 8192;
+
+void copy_record(std::byte *to, Bytes from, size_t size) noexcept {
+    if (size == LOCUS_RECORD_POINT32)
+        std::memcpy(to, from, LOCUS_RECORD_POINT32); // inline
+    else
+        std::memcpy(to, from, size);
+}
+
+} // namespace
+
+void RingLeaves::insert(const Batch &batch, Eviction &eviction, Departures &departures) {
+    uint64_t ties = 0;
+    admit_late(batch, eviction, departures);
+    {
+        const Change change(*this, batch.count <= most_alone);
+        append(batch);
+        try {
+            edition().moment = clock(batch, eviction.moment(), ties);
+        } catch (...) {
+            take_back(batch, batch.count);
+            throw;
+        }
+        edition().stored += batch.count;
+    }
+    try { // what may go can also go later
+        if (ties > 0)
+            drop_equal(edition_->moment.cutoff, ties, departures);
+        tend(batch.count, eviction, departures);
+        hold_bytes(departures);
+    } catch (const std::bad_alloc &) {
+    }
+}
+
+void RingLeaves::append(const Batch &batch) {
+    size_t done = 0;
+    try {
+        for (size_t begin = 0; begin < batch.count; begin += group_size)
+            append_group(batch, begin, std::min(begin + group_size, batch.count), done);
+    } catch (...) {
+        take_back(batch, done);
+        throw;
+    }
+}
+
+void RingLeaves::append_group(const Batch &batch, size_t begin, size_t end, size_t &done) {
+    Spot spots[group_size];
+    for (size_t i = begin; i < end; ++i) {
+        spots[i - begin].node = directory().find(batch.keys[i]);
+        directory().prefetch(spots[i - begin].node);
+    }
+    for (size_t i = begin; i < end; ++i) {
+        Spot &spot = spots[i - begin];
+        const Node &node = own(spot.node);
+        spot.leaf = node.find(batch.keys[i]);
+        const size_t slot = shape_.slot(node.head[spot.leaf], node.count[spot.leaf]);
+        __builtin_prefetch(shape_.keys(node.leaf[spot.leaf]) + slot, 1);
+        const std::byte *record = shape_.record(node.leaf[spot.leaf], slot);
+        __builtin_prefetch(record, 1);
+        if (format_.size > 64) {
+            __builtin_prefetch(record + 64, 1);
+            __builtin_prefetch(record + 128, 1);
+        }
+    }
+    const uint64_t structure = structure_;
+    for (size_t i = begin; i < end; ++i, ++done) {
+        const uint64_t key = batch.keys[i];
+        Spot spot = structure == structure_ ? spots[i - begin] : find(key);
+        for (;;) {
+            const Node &node = own(spot.node);
+            if (node.count[spot.leaf] + node.ghosts[spot.leaf] < shape_.slots)
+                break;
+            make_room(spot, key);
+            spot = find(key);
+        }
+        put(*directory()[spot.node], spot.leaf, key, batch.records + i * format_.size);
+    }
+}
+
+void RingLeaves::put(Node &node, size_t leaf, uint64_t key, Bytes record) noexcept {
+    const size_t count = node.count[leaf];
+    const size_t slot = shape_.slot(node.head[leaf], count);
+    const int64_t time = format_.time(record);
+    if (time >= newest_)
+        newest_ = time;
+    else if (count > 0 && time < time_at(node, leaf, count - 1))
+        node.set_ordered(leaf, false);
+    node.oldest[leaf] = std::min(node.oldest[leaf], time);
+    shape_.keys(node.leaf[leaf])[slot] = key;
+    copy_record(shape_.record(node.leaf[leaf], slot), record, format_.size);
+    ++node.count[leaf];
+    ++node.total;
+}
+
+RingLeaves::Spot RingLeaves::find(uint64_t key) const noexcept {
+    const size_t node = edition_->directory.find(key);
+    return {node, edition_->directory[node]->find(key)};
+}
+
+// Undo the first `done` insertions of a batch, the last one first: each is the youngest entry of its leaf, whatever was
+// split in between. It lies in the last leaf that may hold the key and is not behind a newer, empty one.
+void RingLeaves::take_back(const Batch &batch, size_t done) noexcept {
+    while (done-- > 0) {
+        const uint64_t key = batch.keys[done];
+        Spot spot = find(key);
+        Node *node = directory()[spot.node];
+        while (node->count[spot.leaf] == 0 || key_at(*node, spot.leaf, node->count[spot.leaf] - 1u) != key) {
+            if (spot.leaf == 0) {
+                node = directory()[--spot.node];
+                spot.leaf = node->leaves;
+            }
+            --spot.leaf;
+        }
+        --node->count[spot.leaf];
+        --node->total;
+    }
+}
+
+// Change the directory so that the leaf, or the one that then takes the key, has room.
+void RingLeaves::make_room(const Spot &spot, uint64_t key) {
+    if (directory()[spot.node]->leaves == Node::fanout) {
+        split_node(spot.node);
+        return;
+    }
+    const Node &node = own(spot.node);
+    if (node.count[spot.leaf] <= shape_.slots / 2) { // full of ghosts
+        relocate(spot.node, spot.leaf);
+        return;
+    }
+    const uint64_t at = pivot(node, spot.leaf);
+    if (at != Node::unused) {
+        partition(spot.node, spot.leaf, at);
+        return;
+    }
+    // All keys are equal: an empty leaf takes what comes behind them, or, for a smaller key, before.
+    const uint64_t all = key_at(node, spot.leaf, 0);
+    const LeafMemory empty = slabs_.take();
+    Node &owned = *directory()[spot.node];
+    if (key < all) {
+        owned.insert(spot.leaf, owned.separators[spot.leaf], empty);
+        owned.separators[spot.leaf + 1] = all;
+    } else {
+        owned.insert(spot.leaf + 1, all, empty);
+    }
+    ++leaf_count_;
+    ++structure_;
+}
+
+void RingLeaves::split_node(size_t position) {
+    own(position);
+    directory().reserve_one();
+    Node *upper = take_node();
+    Node &lower = *directory()[position];
+    upper->clear();
+    upper->version = change_;
+    upper->append(lower, Node::fanout / 2, Node::fanout);
+    lower.truncate(Node::fanout / 2);
+    directory().insert(position + 1, upper);
+    ++structure_;
+}
+
+// A key that parts the leaf in two halves, about: the median of a sample; every key on its left is smaller. `unused` if
+// all keys are equal.
+uint64_t RingLeaves::pivot(const Node &node, size_t leaf) const noexcept {
+    constexpr size_t samples = 33;
+    uint64_t sample[samples];
+    const size_t count = node.count[leaf];
+    for (size_t i = 0; i < samples; ++i)
+        sample[i] = key_at(node, leaf, i * (count - 1) / (samples - 1));
+    std::nth_element(sample, sample + samples / 2, sample + samples);
+    const uint64_t median = sample[samples / 2];
+    uint64_t smallest_above = Node::unused;
+    for (size_t i = 0; i < count; ++i) {
+        const uint64_t key = key_at(node, leaf, i);
+        if (key < median)
+            return median;
+        if (key > median)
+            smallest_above = std::min(smallest_above, key);
+    }
+    return smallest_above;
+}
+
+// Move a leaf's entries, in their order, to one or two leaves: the keys below the pivot to the left one. The left one
+// may be the leaf itself when nobody reads it.
+void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
+    expect_garbage(1);
+    const LeafMemory right = slabs_.take();
+    LeafMemory left = directory()[position]->leaf[leaf];
+    if (!alone_) {
+        try {
+            left = slabs_.take();
+        } catch (...) {
+            slabs_.give_back(right);
+            throw;
+        }
+    }
+    Node &node = *directory()[position];
+    const LeafMemory old = node.leaf[leaf];
+    Target low{left, alone_ ? node.head[leaf] : size_t{0}}, high{right, 0};
+    for (size_t i = 0, count = node.count[leaf]; i < count; ++i) {
+        const uint64_t key = key_at(node, leaf, i);
+        add(key < pivot ? low : high, key, record_at(node, leaf, i));
+    }
+    counters_.moved += low.count + high.count;
+    ++counters_.rebalances;
+    node.insert(leaf + 1, pivot, right);
+    install(node, leaf, low);
+    install(node, leaf + 1, high);
+    if (left != old)
+        retire(old);
+    ++leaf_count_;
+    ++structure_;
+}
+
+// A copy of a leaf without its ghosts.
+void RingLeaves::relocate(size_t position, size_t leaf) {
+    expect_garbage(1);
+    Target target{slabs_.take(), 0};
+    Node &node = *directory()[position];
+    for (size_t i = 0, count = node.count[leaf]; i < count; ++i)
+        add(target, key_at(node, leaf, i), record_at(node, leaf, i));
+    counters_.moved += target.count;
+    retire(node.leaf[leaf]);
+    install(node, leaf, target);
+}
+
+void RingLeaves::add(Target &target, uint64_t key, Bytes record) const noexcept {
+    const size_t slot = shape_.slot(target.head, target.count);
+    const int64_t time = format_.time(record);
+    shape_.keys(target.memory)[slot] = key;
+    std::byte *to = shape_.record(target.memory, slot);
+    if (to != record)
+        copy_record(to, record, format_.size);
+    target.ordered = target.ordered && time >= target.newest;
+    target.newest = time;
+    target.oldest = std::min(target.oldest, time);
+    ++target.count;
+}
+
+// The target holds what the leaf has held, or a part of it.
+void RingLeaves::install(Node &node, size_t leaf, const Target &target) noexcept {
+    node.total -= node.count[leaf];
+    node.leaf[leaf] = target.memory;
+    node.head[leaf] = static_cast<uint16_t>(target.head);
+    node.count[leaf] = static_cast<uint16_t>(target.count);
+    node.ghosts[leaf] = 0;
+    node.oldest[leaf] = target.oldest;
+    node.set_ordered(leaf, target.ordered);
+    node.total += node.count[leaf];
+}
+
+} // namespace locus::pmq

@@ -1,0 +1,156 @@
+// The versions of the directory and the memory they share.
+#include "pmq/layout/ring_leaves.hpp"
+
+#include "pmq/layout/ring_view.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <new>
+
+namespace locus::pmq {
+
+RingLeaves::RingLeaves(const RecordFormat &format, const Limits &limits)
+    : format_(format), shape_(format), limits_(limits), slabs_(shape_.bytes(), limits.bytes),
+      ages_(limits.records != UINT64_MAX || limits.bytes != UINT64_MAX), most_records_(limits.records) {
+    auto first = std::make_unique<Edition>();
+    first->directory.reserve_one();
+    std::unique_ptr<Node> node(new Node);
+    node->clear();
+    node->insert(0, 0, slabs_.take());
+    first->directory.insert(0, node.release());
+    nodes_ = leaf_count_ = 1;
+    edition_ = first.release();
+    versions_.publish(*edition_);
+}
+
+RingLeaves::~RingLeaves() {
+    Edition *last = versions_.current();
+    for (size_t i = 0; i < last->directory.size(); ++i)
+        delete last->directory[i];
+    delete last;
+    for (const Garbage &thing : garbage_) {
+        delete thing.node;
+        delete thing.edition;
+    }
+    while (spare_nodes_)
+        delete std::exchange(spare_nodes_, spare_nodes_->next);
+}
+
+RingLeaves::Change::Change(RingLeaves &store, bool alone) : store_(store) { store_.begin(alone); }
+RingLeaves::Change::~Change() { store_.finish(); }
+
+void RingLeaves::begin(bool alone) {
+    alone_ = versions_.begin(alone, oldest_read_);
+    edition_ = versions_.current();
+    change_ = edition_->version + 1;
+    collect_garbage();
+    if (alone_)
+        return;
+    expect_garbage(1);
+    edition_ = new Edition(*edition_);
+}
+
+void RingLeaves::finish() noexcept {
+    Edition *before = versions_.current();
+    edition_->version = change_;
+    oldest_read_ = versions_.publish(*edition_);
+    if (before != edition_)
+        garbage_.push_back({change_, nullptr, nullptr, before}); // expected
+    collect_garbage();
+}
+
+// Nobody can see what was taken out by the oldest version that is still read.
+void RingLeaves::collect_garbage() noexcept {
+    std::erase_if(garbage_, [this](const Garbage &thing) {
+        if (thing.version > oldest_read_)
+            return false;
+        if (thing.leaf)
+            slabs_.give_back(thing.leaf);
+        if (thing.node)
+            spare(thing.node);
+        delete thing.edition;
+        return true;
+    });
+}
+
+// Make sure that so many things can be retired without failing, and the old edition.
+void RingLeaves::expect_garbage(size_t things) {
+    const size_t wanted = garbage_.size() + things + 1;
+    if (garbage_.capacity() < wanted)
+        garbage_.reserve(2 * wanted);
+}
+
+void RingLeaves::retire(LeafMemory leaf) noexcept {
+    if (alone_)
+        slabs_.give_back(leaf);
+    else
+        garbage_.push_back({change_, leaf, nullptr, nullptr}); // expected
+}
+
+void RingLeaves::retire(Node *node) noexcept {
+    if (alone_)
+        spare(node);
+    else
+        garbage_.push_back({change_, nullptr, node, nullptr}); // expected
+}
+
+Node *RingLeaves::take_node() {
+    if (!spare_nodes_) {
+        Node *node = new Node;
+        ++nodes_;
+        return node;
+    }
+    --spares_;
+    return std::exchange(spare_nodes_, spare_nodes_->next);
+}
+
+void RingLeaves::spare(Node *node) noexcept {
+    if (spares_ > nodes_ / 2 + 64) {
+        delete node;
+        --nodes_;
+        return;
+    }
+    node->next = spare_nodes_;
+    spare_nodes_ = node;
+    ++spares_;
+}
+
+// The node at a position, safe to be changed. When nobody can see its former entries any more, their slots are free.
+Node &RingLeaves::own(size_t position) {
+    Node *node = directory()[position];
+    if (node->version == change_)
+        return *node;
+    if (!alone_) {
+        expect_garbage(1);
+        Node *copy = take_node();
+        *copy = *node;
+        retire(node);
+        directory().replace(position, copy);
+        node = copy;
+    }
+    node->version = change_;
+    if (node->ghost_version != 0 && (alone_ || node->ghost_version <= oldest_read_)) {
+        std::fill_n(node->ghosts, Node::fanout, uint16_t{0});
+        node->ghost_version = 0;
+    }
+    return *node;
+}
+
+std::shared_ptr<const View> RingLeaves::view() const {
+    return std::make_shared<PinnedView>(versions_, format_, shape_);
+}
+
+LayoutStats RingLeaves::stats() const {
+    LayoutStats stats = counters_;
+    stats.stored = versions_.current()->stored;
+    stats.slots = leaf_count_ * shape_.slots;
+    stats.bytes = bytes();
+    return stats;
+}
+
+uint64_t RingLeaves::bytes() const noexcept {
+    return slabs_.bytes() + nodes_ * sizeof(Node) + versions_.current()->directory.bytes() +
+           garbage_.capacity() * sizeof(Garbage) + ages_.bytes() + sizeof *this;
+}
+
+} // namespace locus::pmq

@@ -1,0 +1,77 @@
+// Reading one version of the ring leaves.
+#pragma once
+
+#include "pmq/layout/layout.hpp"
+#include "pmq/layout/ring_versions.hpp"
+
+namespace locus::pmq {
+
+// The first entry of a leaf in order of time that is not older than `time`. Few are, as a rule: search from the head.
+size_t first_not_before(const RecordFormat &format, const LeafShape &shape, const Node &node, size_t leaf,
+                        int64_t time) noexcept;
+
+class RingView : public View {
+public:
+    RingView(const Edition &edition, const RecordFormat &format, const LeafShape &shape) noexcept
+        : edition_(edition), format_(format), shape_(shape) {}
+
+    const RecordFormat &format() const noexcept override { return format_; }
+    Moment moment() const noexcept override { return edition_.moment; }
+    int64_t oldest() const noexcept override;
+    Place everywhere() const noexcept override;
+    Place narrow(const Place &outer, const Quadrant &quadrant) const noexcept override;
+    uint64_t count(const Place &place, const KeyRange &keys, int64_t from) const override;
+    bool scan(const Place &place, const KeyRange &keys, Order order,
+              FunctionRef<bool(const Block &)> visit) const override;
+
+    // Call visit(node's position, leaf) for the leaves of a place until it returns false; false if it did.
+    template <typename Visit>
+    bool for_each_leaf(const Place &place, Visit &&visit) const {
+        if (place.empty())
+            return true;
+        for (size_t at = position(place.first); at <= position(place.last); ++at) {
+            const size_t begin = at == position(place.first) ? leaf(place.first) : 0;
+            const size_t end = at == position(place.last) ? leaf(place.last) + 1 : edition_.directory[at]->leaves;
+            for (size_t i = begin; i < end; ++i)
+                if (!visit(at, i))
+                    return false;
+        }
+        return true;
+    }
+    // All slots of a leaf, occupied or not.
+    Block slots_of(const Node &node, size_t leaf) const noexcept;
+
+private:
+    // A leaf's number in a place: its node's position, then its own.
+    static uint64_t number(size_t position, size_t leaf) noexcept { return position * Node::fanout + leaf; }
+    static size_t position(uint64_t number) noexcept { return number / Node::fanout; }
+    static size_t leaf(uint64_t number) noexcept { return number % Node::fanout; }
+    uint64_t last_below(uint64_t key, const Place &outer) const noexcept;
+    bool within(size_t position, size_t leaf, const KeyRange &keys) const noexcept;
+    uint64_t count_leaf(size_t position, size_t leaf, const KeyRange &keys, int64_t from) const noexcept;
+    bool scan_ring(const Node &node, size_t leaf, bool within, FunctionRef<bool(const Block &)> visit) const;
+    bool scan_sorted(const Node &node, size_t leaf, const KeyRange &keys, FunctionRef<bool(const Block &)> visit) const;
+
+    const Edition &edition_;
+    const RecordFormat &format_;
+    const LeafShape &shape_;
+};
+
+// The current version, held while the view lives.
+class PinnedView final : public RingView {
+public:
+    PinnedView(Versions &versions, const RecordFormat &format, const LeafShape &shape)
+        : PinnedView(versions, versions.pin(), format, shape) {}
+    ~PinnedView() override { versions_.unpin(version_); }
+    PinnedView(const PinnedView &) = delete;
+    PinnedView &operator=(const PinnedView &) = delete;
+
+private:
+    PinnedView(Versions &versions, const Edition &edition, const RecordFormat &format, const LeafShape &shape) noexcept
+        : RingView(edition, format, shape), versions_(versions), version_(edition.version) {}
+
+    Versions &versions_;
+    uint64_t version_;
+};
+
+} // namespace locus::pmq
