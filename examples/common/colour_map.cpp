@@ -75,9 +75,11 @@ Colour label_colour(uint32_t label) {
 }
 
 void draw_legend(Canvas &canvas, int x, int y, int width, int height, ColourMap map, const std::vector<Mark> &marks,
-                 Colour ink) {
-    for (int column = 0; column < width; ++column)
-        canvas.fill(x + column, y, 1, height, colour_of(map, column / std::max(1.0, width - 1.0)));
+                 Colour ink, double darkest) {
+    for (int column = 0; column < width; ++column) {
+        const double place = column / std::max(1.0, width - 1.0);
+        canvas.fill(x + column, y, 1, height, colour_of(map, darkest + (1 - darkest) * place));
+    }
     canvas.frame(x - 1, y - 1, width + 2, height + 2, mix(ink, {}, 0.5));
     for (const Mark &mark : marks) {
         const int place = x + static_cast<int>(std::lround(mark.where * (width - 1)));

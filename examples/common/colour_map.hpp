@@ -22,8 +22,8 @@ struct Mark {
     std::string text;
 };
 
-// A horizontal bar of the map's colours with marks under it.
+// A horizontal bar of the map's colours, from that of `darkest` to the brightest, with marks under it.
 void draw_legend(Canvas &canvas, int x, int y, int width, int height, ColourMap map, const std::vector<Mark> &marks,
-                 Colour ink);
+                 Colour ink, double darkest = 0);
 
 } // namespace demo

@@ -31,7 +31,8 @@ uint32_t next_code(std::string_view &text) {
 
 template <typename Glyphs>
 const auto &glyph_of(const Glyphs &font, uint32_t code) {
-    if (code == 0x2018 || code == 0x2019) code = 0x27; // the typographic apostrophe, as in place names
+    if (code == 0x2018 || code == 0x2019)
+        code = 0x27; // the typographic apostrophe, as in place names
     const auto found = std::lower_bound(std::begin(font), std::end(font), code,
                                         [](const auto &glyph, uint32_t wanted) { return glyph.code < wanted; });
     return found != std::end(font) && found->code == code ? *found : font['?' - ' '];

@@ -125,8 +125,11 @@ locus_text156 Generator::write(const Arrival &arrival) {
     locus_text156 post{static_cast<float>(position.latitude), static_cast<float>(position.longitude), arrival.time, {}};
     if (arrival.event != nullptr)
         write_event_post(post.text, sizeof post.text, place.country, place.name, arrival.event->kind, random_);
-    else
-        write_post(post.text, sizeof post.text, place.country, place.name, random_);
+    else {
+        const size_t minute_of_day = local_minute(arrival.time, strip_of(place.position.longitude));
+        write_post(post.text, sizeof post.text, place.country, place.name, static_cast<int>(minute_of_day / 60),
+                   random_);
+    }
     return post;
 }
 

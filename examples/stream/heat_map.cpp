@@ -18,8 +18,7 @@ constexpr Colour ink{226, 228, 236};
 constexpr Colour faint{140, 146, 164};
 constexpr Colour mark{120, 220, 255};
 
-constexpr int heading = 64; // height of the text above the map
-constexpr int footing = 52; // and of the legend below
+constexpr int footing = 52; // height of the legend below the map
 constexpr uint32_t log2_bins = 8;
 constexpr int64_t bins = 1 << log2_bins;
 
@@ -63,12 +62,11 @@ void draw_shores(Canvas &canvas, const View &view, const World &world, int above
     for (const Ring &ring : world.land) {
         for (size_t i = 1; i < ring.size(); ++i) {
             const Position a = ring[i - 1], b = ring[i];
-            if (std::abs(a.longitude) > 179.99 && std::abs(b.longitude) > 179.99)
-                continue; // a cut, no shore
+
             const double x0 = view.x(a.longitude), x1 = view.x(b.longitude);
             const double y0 = view.y(a.latitude), y1 = view.y(b.latitude);
             const bool beside = std::max(x0, x1) < 0 || std::min(x0, x1) > view.width || std::max(y0, y1) < 0 ||
-                                std::min(y0, y1) > view.height || std::abs(x0 - x1) > view.width;
+                                std::min(y0, y1) > view.height || std::abs(x0 - x1) > view.width / 2;
             if (!beside)
                 canvas.line(x0, above + y0, x1, above + y1, shore, 0.8);
         }
@@ -95,6 +93,7 @@ std::vector<float> smooth(const std::vector<uint32_t> &counts, int width, int he
 
 // Logarithmic brightness between these numbers of records per pixel.
 struct Scale {
+    static constexpr double darkest = 0.18; // of the colour map: what is less would not be seen on the ground
     double low = 0.1;
     double high = 1;
     double place(double value) const { return std::log(value / low) / std::log(high / low); }
@@ -107,9 +106,10 @@ void draw_heat(Canvas &canvas, const View &view, const std::vector<float> &heat,
                 heat[static_cast<size_t>(y) * static_cast<size_t>(view.width) + static_cast<size_t>(x)];
             if (value <= scale.low / 4)
                 continue;
-            const double place = std::max(0.0, scale.place(value));
-            // The dark end of the map fades into the ground.
-            canvas.blend(x, above + y, colour_of(ColourMap::inferno, 0.18 + 0.82 * place), 0.25 + 2.5 * place);
+            // In 64 steps, which nobody sees and PNG packs well. The dark end fades into the ground.
+            const double place = std::round(64 * std::max(0.0, scale.place(value))) / 64;
+            const Colour colour = colour_of(ColourMap::inferno, Scale::darkest + (1 - Scale::darkest) * place);
+            canvas.blend(x, above + y, colour, 0.25 + 2.5 * place);
         }
 }
 
@@ -122,7 +122,7 @@ void draw_solar_hours(Canvas &canvas, const View &view, int64_t clock, int above
         char text[8];
         std::snprintf(text, sizeof text, "%02dh", hour);
         canvas.fill(x, above - 5, 1, 5, faint);
-        canvas.text(std::clamp(x - Canvas::text_width(text) / 2, 0, view.width - 24), above - 20, text, faint);
+        canvas.text(std::clamp(x - Canvas::text_width(text) / 2, 2, view.width - 26), above - 21, text, faint);
     }
 }
 
@@ -172,7 +172,7 @@ void draw_scale(Canvas &canvas, const View &view, const Scale &scale, int top) {
     for (double value = scale.low; value <= scale.high * 1.001; value *= 10)
         marks.push_back({scale.place(value), short_number(value)});
     const int width = std::min(320, view.width / 3);
-    draw_legend(canvas, 24, top + 10, width, 12, ColourMap::inferno, marks, ink);
+    draw_legend(canvas, 24, top + 10, width, 12, ColourMap::inferno, marks, ink, Scale::darkest);
     const double km = view.pixel_km();
     const std::string size =
         km < 1 ? std::to_string(std::lround(km * 1000)) + " m" : std::to_string(std::lround(km)) + " km";
@@ -206,6 +206,7 @@ std::vector<uint32_t> counts_of(const View &view, const locus_pmq *store) {
 }
 
 Canvas draw_map(const View &view, const World &world, const std::vector<uint32_t> &counts, const MapText &text) {
+    const int heading = text.solar_hours ? 84 : 64; // height of the text above the map
     Canvas canvas(view.width, heading + view.height + footing, {14, 16, 24});
     canvas.fill(0, heading, view.width, view.height, sea);
     if (view.pixel_km() >= finest_land_km) {

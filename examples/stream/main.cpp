@@ -120,10 +120,10 @@ int run(const Options &options) {
     const auto begin = Clock::now();
     const World world = load_world(options.data);
     std::unique_ptr<Source> source;
-    const std::vector<Event> *events = nullptr;
+    std::vector<Event> events; // none are known of a file
     if (options.input.empty()) {
         auto generator = std::make_unique<Generator>(world, generator_settings(options));
-        events = &generator->events();
+        events = generator->events();
         source = std::move(generator);
     } else {
         source = std::make_unique<FileSource>(options.input, reader_options(options));
@@ -141,9 +141,9 @@ int run(const Options &options) {
     pictures.finish(window);
     std::vector<std::string> files = pictures.files();
     std::string failed = pictures.error();
-    if (events != nullptr && options.pictures && failed.empty()) {
+    if (!events.empty() && options.pictures && failed.empty()) {
         try {
-            write_events(options.out + "/events.csv", *events);
+            write_events(options.out + "/events.csv", events);
             files.push_back(options.out + "/events.csv  the planted bursts");
         } catch (const std::exception &error) {
             failed = error.what();
@@ -153,8 +153,8 @@ int run(const Options &options) {
     print_summary(window, *source, options.batch, taken.count());
     if (options.newest > 0)
         print_newest(window, box_of(pictures.zoom()), options.newest);
-    if (events != nullptr && !events->empty())
-        print_events(*events);
+    if (!events.empty())
+        print_events(events);
     print_files(files);
     std::fflush(stdout);
     if (!stopped.empty())

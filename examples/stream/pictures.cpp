@@ -18,7 +18,9 @@ constexpr int zoom_width = 1000;
 constexpr int zoom_height = 720;
 constexpr uint32_t frame_level = 10; // the world is 1024 pixels wide
 constexpr uint32_t world_level = 11;
-constexpr double local_km = 300;
+constexpr double local_km = 300;   // records within this extent lie close together
+constexpr size_t candidates = 200; // places that a zoom may have in its middle
+constexpr double wide_km = 900;    // the zoom's width where they do not
 
 // Where the records lie: the middle, and the extent of nine tenths of them.
 struct Extent {
@@ -49,13 +51,14 @@ std::optional<Extent> extent_of(const locus_pmq *store) {
     return Extent{{part(lists.latitudes, 0.5), part(lists.longitudes, 0.5)}, distance_km(south_west, north_east)};
 }
 
-// The middle of the fullest bin of a world of 256 x 256.
-Position densest(const locus_pmq *store) {
-    std::vector<uint32_t> bins(256 * 256);
-    check(locus_pmq_tile(store, 0, 0, 0, 8, nullptr, bins.data(), bins.size(), nullptr));
-    const auto most = std::max_element(bins.begin(), bins.end()) - bins.begin();
-    const View world{8, 0, 0, 256, 256};
-    return world.position(static_cast<double>(most % 256), static_cast<double>(most / 256));
+uint64_t count_in(const View &view, const locus_pmq *store) {
+    locus_pmq_query query;
+    check(locus_pmq_query_init(&query, sizeof query));
+    query.region = LOCUS_REGION_BOX;
+    query.box = box_of(view);
+    uint64_t count = 0;
+    check(locus_pmq_count(store, &query, &count));
+    return count;
 }
 
 Position parse_position(const World &world, const std::string &zoom) {
@@ -70,10 +73,6 @@ Position parse_position(const World &world, const std::string &zoom) {
     if (place == nullptr)
         throw std::runtime_error("--zoom " + zoom + ": no such place; its name, or LAT,LON, or auto");
     return place->position;
-}
-
-bool alive(const Event &event, int64_t clock, int64_t horizon) {
-    return event.start < clock && event.start + event.duration > clock - horizon;
 }
 
 } // namespace
@@ -103,27 +102,40 @@ void Pictures::guarded(Work work) {
     }
 }
 
+// The planted bursts that show in the window.
+std::vector<Event> Pictures::events_in(const Window &window) const {
+    std::vector<Event> found;
+    for (const Event &event : settings_.events)
+        if (event.start < window.clock() && event.start + event.duration > window.clock() - settings_.horizon)
+            found.push_back(event);
+    return found;
+}
+
 void Pictures::choose_zoom(const Window &window) {
     const std::optional<Extent> extent = extent_of(window.store());
     local_ = extent && extent->km < local_km;
-    double km = settings_.zoom_km;
+    double km = settings_.zoom_km > 0 ? settings_.zoom_km : wide_km;
+    const auto view_of = [&](Position middle) { return zoom_view(middle, km, zoom_width, zoom_height); };
     Position centre;
     if (settings_.zoom != "auto") {
         centre = parse_position(world_, settings_.zoom);
     } else if (local_) {
         centre = extent->middle;
-        if (km == 0)
+        if (settings_.zoom_km == 0)
             km = std::max(2.0, 1.2 * extent->km);
     } else {
-        centre = densest(window.store());
-        if (settings_.events != nullptr) // the greatest burst that is still in the window
-            for (double most = 0; const Event &event : *settings_.events)
-                if (event.posts > most && alive(event, window.clock(), settings_.horizon)) {
-                    most = event.posts;
-                    centre = event.place->position;
-                }
+        if (extent)
+            centre = extent->middle;
+        uint64_t most = 0; // around a large place: the one with the most records around
+        for (size_t i = 0; i < std::min(candidates, world_.places.size()); ++i) {
+            const Position place = world_.places[i].position;
+            const uint64_t count = count_in(view_of(place), window.store());
+            if (count > most)
+                centre = place;
+            most = std::max(most, count);
+        }
     }
-    zoom_ = zoom_view(centre, km > 0 ? km : 500, zoom_width, zoom_height);
+    zoom_ = view_of(centre);
 }
 
 MapText Pictures::text_of(const Window &window, const std::string &what) const {
@@ -135,11 +147,10 @@ MapText Pictures::text_of(const Window &window, const std::string &what) const {
     text.clock = window.clock();
     if (window.clock() != INT64_MIN)
         text.subtitle = time_text(window.clock() - settings_.horizon) + " .. " + time_text(window.clock()) + " UTC";
-    if (settings_.events != nullptr)
-        for (const Event &event : *settings_.events)
-            if (alive(event, window.clock(), settings_.horizon))
-                text.labels.push_back(
-                    {event.place->position, event.place->name + ": " + std::string(event_kind_name(event.kind)), true});
+    for (const Event &event : events_in(window)) {
+        const std::string kind(event_kind_name(event.kind));
+        text.labels.push_back({event.place->position, event.place->name + ": " + kind, true});
+    }
     return text;
 }
 
@@ -163,6 +174,8 @@ Canvas Pictures::draw(const View &view, const Window &window, bool places) const
         shown += count;
     MapText text = text_of(window, with_commas(shown) + " records");
     text.solar_hours = !places && window.clock() != INT64_MIN;
+    if (text.solar_hours)
+        text.subtitle += ", and the local solar time";
     if (places)
         add_places(view, text);
     return draw_map(view, world_, counts, text);

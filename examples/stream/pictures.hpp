@@ -14,10 +14,10 @@ namespace demo {
 
 struct PictureSettings {
     std::string folder;
-    std::string zoom;                 // "auto", LAT,LON or the name of a place
-    double zoom_km = 0;               // 0: chosen
-    int64_t horizon = 0;              // microseconds
-    const std::vector<Event> *events; // null: none are known
+    std::string zoom;          // "auto", LAT,LON or the name of a place
+    double zoom_km = 0;        // 0: chosen
+    int64_t horizon = 0;       // microseconds
+    std::vector<Event> events; // none are known of a file
     bool draw = true;
 };
 
@@ -37,6 +37,7 @@ public:
     const std::string &error() const { return error_; }
 
 private:
+    std::vector<Event> events_in(const Window &window) const;
     void choose_zoom(const Window &window);
     MapText text_of(const Window &window, const std::string &what) const;
     void add_places(const View &view, MapText &text) const;

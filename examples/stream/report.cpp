@@ -110,11 +110,11 @@ void print_summary(const Window &window, const Source &source, size_t batch, dou
                 with_commas(stats.shrinks).c_str(), bytes_text(static_cast<uint64_t>(usage.ru_maxrss) * 1024).c_str());
 }
 
-void print_newest(const Window &window, const Box &box, size_t count) {
+void print_newest(const Window &window, const locus_box &box, size_t count) {
     locus_pmq_query query;
     check(locus_pmq_query_init(&query, sizeof query));
     query.region = LOCUS_REGION_BOX;
-    query.box = {box.south, box.west, box.north, box.east};
+    query.box = box;
     Newest newest{count, 0, {}};
     const auto begin = std::chrono::steady_clock::now();
     check(locus_pmq_visit(window.store(), &query, keep_newest, &newest));

@@ -16,7 +16,7 @@ std::string time_text(int64_t microseconds); // 2026-03-21 18:05:09
 void print_summary(const Window &window, const Source &source, size_t batch, double seconds);
 
 // The newest records in a box, and how many it holds.
-void print_newest(const Window &window, const Box &box, size_t count);
+void print_newest(const Window &window, const locus_box &box, size_t count);
 
 void print_events(const std::vector<Event> &events);
 

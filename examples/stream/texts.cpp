@@ -1,4 +1,5 @@
-// Templates: {p} the place, {n} a number of 2..59, {e} the event's tag.
+// Templates: {p} the place, {n} a number of 2..59, {e} the event's tag. The first post is a morning's, the sixth a
+// night's.
 #include "stream/texts.hpp"
 
 #include <algorithm>
@@ -14,6 +15,9 @@ struct Language {
     std::string_view posts[7];
     std::string_view event_posts[3];
 };
+
+constexpr size_t morning = 0;
+constexpr size_t night = 5;
 
 constexpr std::string_view kind_names[event_kinds] = {"concert", "finale",   "earthquake",
                                                       "storm",   "festival", "blackout"};
@@ -36,7 +40,7 @@ constexpr Language languages[] = {
      {"#{e} à {p}, incroyable !", "Vous avez vu ça ? #{e} {p}", "{p} en ce moment : #{e}"}},
     {"ESMXARCOCLPEVEECBOPYUYGTCUDOHNSVNICRPA",
      {"¡Buenos días desde {p}!", "{n} minutos esperando el autobús en {p}", "Tarde de sol en {p} ☀",
-      "El mejor café está en {p}", "¿Alguien para correr por {p}?", "Qué lluvia en {p}", "Buenas noches, {p}"},
+      "El mejor café está en {p}", "¿Alguien para correr por {p}?", "Buenas noches, {p}", "Qué lluvia en {p}"},
      {"¡#{e} en {p}, increíble!", "¿Lo están viendo? #{e} {p}", "{p} ahora mismo: #{e}"}},
     {"BRPTAOMZ",
      {"Bom dia, {p}!", "{n} minutos parado no trânsito de {p}", "Que pôr do sol em {p} 🌅",
@@ -133,9 +137,15 @@ void fill(char *text, size_t size, std::string_view pattern, std::string_view pl
 
 std::string_view event_kind_name(size_t kind) { return kind_names[kind]; }
 
-void write_post(char *text, size_t size, std::string_view country, std::string_view place, Random &random) {
+void write_post(char *text, size_t size, std::string_view country, std::string_view place, int hour, Random &random) {
     const std::span posts(language_of(country).posts);
-    fill(text, size, posts[random.below(posts.size())], place, "", random);
+    const auto fits = [hour](size_t i) {
+        return i == morning ? hour >= 5 && hour < 11 : i == night ? hour >= 20 || hour < 4 : true;
+    };
+    size_t chosen = random.below(posts.size());
+    while (!fits(chosen))
+        chosen = random.below(posts.size());
+    fill(text, size, posts[chosen], place, "", random);
 }
 
 void write_event_post(char *text, size_t size, std::string_view country, std::string_view place, size_t kind,

@@ -64,7 +64,7 @@ View zoom_view(Position centre, double km, int width, int height) {
 }
 
 // Across the antimeridian west is greater than east, as in locus_box.
-Box box_of(const View &view) {
+locus_box box_of(const View &view) {
     const Position north_west = view.position(-0.5, -0.5);
     const Position south_east = view.position(view.width - 0.5, view.height - 0.5);
     const bool whole = view.width >= pixels(view.level);

@@ -3,6 +3,8 @@
 
 #include "stream/world.hpp"
 
+#include <locus/pmq.h>
+
 #include <cstdint>
 
 namespace demo {
@@ -22,16 +24,12 @@ struct View {
     double pixel_km() const; // at the picture's middle
 };
 
-struct Box {
-    double south = 0, west = 0, north = 0, east = 0;
-};
-
 // The inhabited world, 2^level pixels wide.
 View world_view(uint32_t level);
 
 // A picture of width x height pixels, around `centre`, that shows `km` from west to east or a little more.
 View zoom_view(Position centre, double km, int width, int height);
 
-Box box_of(const View &view);
+locus_box box_of(const View &view);
 
 } // namespace demo

@@ -35,7 +35,7 @@ Ring parse_ring(const std::string &line) {
     int x = 0;
     int y = 0;
     for (int dx = 0, dy = 0; numbers >> dx >> dy;) {
-        x += dx;
+        x += ring.empty() ? dx : dx - 36000 * static_cast<int>(std::lround(dx / 36000.0)); // the shorter way round
         y += dy;
         ring.push_back({y / 100.0, x / 100.0});
     }

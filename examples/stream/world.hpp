@@ -19,7 +19,7 @@ struct Place {
     std::string name;
 };
 
-// A closed line around land, or around a lake in it.
+// A closed line around land, or around a lake in it. Across the antimeridian its longitudes go on beyond 180 or -180.
 using Ring = std::vector<Position>;
 
 struct World {
