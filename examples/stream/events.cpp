@@ -46,7 +46,7 @@ std::vector<Event> plan_events(const World &world, const EventPlan &plan, Random
         // Ten to twenty times what the place has in that time, and enough to be seen in a small place.
         const double usual =
             plan.posts * event.place->population / plan.population * duration / static_cast<double>(plan.span);
-        event.posts = (1 + random.uniform()) * std::max(10 * usual, plan.posts / 2000);
+        event.posts = (1 + random.uniform()) * std::max({10 * usual, plan.posts / 2000, 15.0});
         event.kind = random.below(event_kinds);
         events.push_back(event);
     }

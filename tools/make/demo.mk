@@ -20,7 +20,19 @@ demo: ## build the example programs and run them: pictures and results under bui
 
 # The stream of posts.
 $(eval $(call example,stream,-lz))
-.PHONY: demo-stream memcheck-stream
+.PHONY: demo-stream test-stream memcheck-stream
 demo-stream: $(EXAMPLE_stream) ## a day of posts through a six-hour window of the PMQ store
 	@$(EXAMPLE_stream) --out $(DEMO_OUT)/stream $(STREAM_FLAGS)
 demo: demo-stream
+
+test-stream: $(EXAMPLE_stream) | $(call needs,test)
+	$(STAGE) $(FLAVOUR)$@ tests/examples/stream.sh $<
+test: test-stream
+memcheck-stream: $(EXAMPLE_stream) | $(call needs,test)
+	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $< --posts 2000 --frames 1 --out $(OUT)/memcheck-stream
+MEMCHECK_RUNS += memcheck-stream
+
+# Unit tests of the examples' own parts.
+UNIT_LIBS_examples := -lpng -lz
+$(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/examples/*.cpp)): EXTRA_CPPFLAGS += -Iexamples
+$(OUT)/tests/unit_examples: $(EXAMPLE_COMMON) $(filter-out %/main.cpp.o,$(OBJECTS_example_stream))
