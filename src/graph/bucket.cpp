@@ -10,7 +10,7 @@ public:
     uint32_t kind() const override { return LOCUS_ENGINE_BUCKET; }
     Report solve(const Problem &problem, Words &words, Progress &progress) override {
         return solve_on_lattice(problem, words, progress, [](const Problem &p, auto &lattice, Progress &told) {
-            return spread(p, lattice, told);
+            return spread(p, lattice, told, true);
         });
     }
 };

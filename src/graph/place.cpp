@@ -43,7 +43,7 @@ public:
     void add(std::span<const Source> sources) {
         Progress unheard;
         const Problem problem{lattice_.graph(), sources};
-        const Report report = spread(problem, lattice_, unheard);
+        const Report report = spread(problem, lattice_, unheard, false);
         if (!report.clipped)
             return;
         Words words;

@@ -10,9 +10,11 @@
 namespace locus::graph {
 
 // Lower the words of the lattice to what they are with these sources added. Only voxels that the new sources come
-// closest to are visited; on a fresh lattice that is all of them.
+// closest to are visited; on a fresh lattice that is all of them. On a fresh lattice a voxel whose word falls within
+// its bucket needs no new entry, as the one that brought it there is still queued; later the old word may stem from an
+// earlier call.
 template <typename Word, typename Place>
-Report spread(const Problem &problem, Lattice<Word, Place> &lattice, Progress &progress) {
+Report spread(const Problem &problem, Lattice<Word, Place> &lattice, Progress &progress, bool fresh) {
     const WordLayout &layout = problem.graph.layout();
     const auto limit = static_cast<Word>(layout.pack(problem.limit(), layout.labels() - 1));
     const auto all = static_cast<double>(problem.graph.passable_voxels());
@@ -40,7 +42,7 @@ Report spread(const Problem &problem, Lattice<Word, Place> &lattice, Progress &p
                 ++settled;
                 relax(words[place], place, words, lattice.hops(), from, layout.label_bits, limit, report.clipped,
                       [&](uint64_t next, Word old, Word word) {
-                          if (old >> shift != word >> shift)
+                          if (!fresh || old >> shift != word >> shift)
                               queue.push(word >> shift, static_cast<Place>(next));
                       });
             }
