@@ -3,7 +3,23 @@
 
 #include "core/error.hpp"
 
+#if !defined(LOCUS_SIMD_SCALAR_ONLY) && defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
 namespace locus {
+
+#if !defined(LOCUS_SIMD_SCALAR_ONLY) && defined(__x86_64__)
+namespace {
+
+// clang 14's __builtin_cpu_supports does not know the name.
+bool has_f16c() noexcept {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+}
+
+} // namespace
+#endif
 
 // The lists name every feature that Highway 1.0.3 lets the compiler use for its target, not the vector width alone.
 bool simd_available(Simd target) noexcept {
@@ -16,7 +32,7 @@ bool simd_available(Simd target) noexcept {
                       __builtin_cpu_supports("aes");
     const bool avx2 = sse4 && __builtin_cpu_supports("avx") && __builtin_cpu_supports("avx2") &&
                       __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
-                      __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
+                      __builtin_cpu_supports("fma") && has_f16c();
     const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
     if (target == Simd::sse4)

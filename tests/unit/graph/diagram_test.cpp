@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <numeric>
 #include <random>
 
@@ -51,8 +52,8 @@ TEST(Distances, AreTheChamferMetricOnUniformGrids) {
 TEST(Distances, ScaleWithComplianceAndSpacing) {
     auto o = options(6, 1, 1);
     o.spacing[0] = 0.25;
-    for (const uint32_t rule :
-         {LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MAX_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS}) {
+    for (const uint32_t rule : std::initializer_list<uint32_t>{
+             LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MAX_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS}) {
         o.weight_rule = rule;
         const Graph g = graph(o, {8, 8, 8, 8, 2, 2});
         const Diagram d = diagram(g, {{0, 0, 0, 1.5, 1, 0}});

@@ -2,6 +2,7 @@
 #include "tests/unit/graph/support.hpp"
 
 #include <gtest/gtest.h>
+#include <initializer_list>
 
 namespace {
 
@@ -53,7 +54,8 @@ TEST(Engines, AgreeWithBruteForceForEveryRule) {
         for (const uint32_t connectivity : {6u, 18u, 26u})
             for (uint32_t rule = 0; rule <= LOCUS_WEIGHT_CALLER; ++rule)
                 for (const uint32_t word : {32u, 64u})
-                    for (const uint32_t material : {LOCUS_MATERIAL_COMPLIANCE, LOCUS_MATERIAL_STIFFNESS})
+                    for (const uint32_t material :
+                         std::initializer_list<uint32_t>{LOCUS_MATERIAL_COMPLIANCE, LOCUS_MATERIAL_STIFFNESS})
                         for (const double p : {1.0, 1.7}) {
                             if (p != 1 && rule != LOCUS_WEIGHT_MEAN_STIFFNESS)
                                 continue;
@@ -109,7 +111,8 @@ TEST(Engines, AgreeOnCutEdges) {
 }
 
 TEST(Engines, AgreeOverExtremeRatios) {
-    for (const uint32_t rule : {LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MAX_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS})
+    for (const uint32_t rule : std::initializer_list<uint32_t>{
+             LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MAX_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS})
         for (uint32_t seed = 0; seed < 4; ++seed) {
             auto options = options_for(9, 7, 8);
             options.weight_rule = rule;

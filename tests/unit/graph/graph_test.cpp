@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <random>
 
 namespace {
@@ -114,7 +115,8 @@ TEST(Weights, FollowTheirFormulaWithinTheErrorBound) {
     std::mt19937 random(11);
     for (const uint32_t word : {32u, 64u})
         for (uint32_t rule = LOCUS_WEIGHT_MEAN_COMPLIANCE; rule < LOCUS_WEIGHT_CALLER; ++rule)
-            for (const uint32_t material : {LOCUS_MATERIAL_COMPLIANCE, LOCUS_MATERIAL_STIFFNESS})
+            for (const uint32_t material :
+                 std::initializer_list<uint32_t>{LOCUS_MATERIAL_COMPLIANCE, LOCUS_MATERIAL_STIFFNESS})
                 for (const double p : {0.5, 1.0, 3.0})
                     for (const bool even : {true, false}) {
                         if (p != 1 && rule != LOCUS_WEIGHT_MEAN_STIFFNESS)

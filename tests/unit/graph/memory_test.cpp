@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <initializer_list>
 #include <new>
 
 namespace {
@@ -76,7 +77,8 @@ TEST(Memory, EveryFailureLeavesTheObjectsUsable) {
     fail_each([&] { return locus_graph_set_voxels(g.get(), list, two.data(), 3); },
               [&] { EXPECT_EQ(materials(), edited); });
 
-    for (const uint32_t engine : {LOCUS_ENGINE_AUTO, LOCUS_ENGINE_HEAP, LOCUS_ENGINE_BUCKET, LOCUS_ENGINE_RELAX}) {
+    for (const uint32_t engine : std::initializer_list<uint32_t>{LOCUS_ENGINE_AUTO, LOCUS_ENGINE_HEAP,
+                                                                 LOCUS_ENGINE_BUCKET, LOCUS_ENGINE_RELAX}) {
         locus_diagram_options how;
         EXPECT_STATUS(locus_diagram_options_init(&how, sizeof how), LOCUS_OK);
         how.engine = engine;

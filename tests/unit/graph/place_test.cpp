@@ -3,6 +3,7 @@
 #include "tests/unit/graph/api.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <random>
 #include <set>
 
@@ -38,7 +39,7 @@ std::vector<uint64_t> places(const std::vector<locus_seed> &seeds, const locus_g
 }
 
 TEST(Sampling, TakesTheFarthestVoxelEachTime) {
-    for (const uint32_t metric : {LOCUS_PLACE_COMPLIANCE, LOCUS_PLACE_UNIFORM})
+    for (const uint32_t metric : std::initializer_list<uint32_t>{LOCUS_PLACE_COMPLIANCE, LOCUS_PLACE_UNIFORM})
         for (uint32_t seed = 0; seed < 5; ++seed) {
             const auto o = options(9, 8, 7);
             const auto material = blobs(o, seed);

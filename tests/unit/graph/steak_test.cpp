@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <initializer_list>
 #include <queue>
 #include <sstream>
 
@@ -110,7 +111,8 @@ TEST_P(SteakTest, EveryEngineGivesTheDistancesOfTheFormula) {
         ASSERT_NEAR(static_cast<double>(found[v]), expected[v], expected[v] * (about.weight_error + 1e-6)) << v;
     }
     EXPECT_EQ(reached, 12276u); // one component
-    for (const uint32_t engine : {LOCUS_ENGINE_AUTO, LOCUS_ENGINE_BUCKET, LOCUS_ENGINE_RELAX}) {
+    for (const uint32_t engine :
+         std::initializer_list<uint32_t>{LOCUS_ENGINE_AUTO, LOCUS_ENGINE_BUCKET, LOCUS_ENGINE_RELAX}) {
         const Diagram other = diagram(g, steak.seeds, engine);
         solve(other);
         EXPECT_EQ(exact(other, expected.size()), exact(d, expected.size()));
