@@ -20,7 +20,7 @@ typedef struct locus_diagram locus_diagram;
 
 #define LOCUS_ENGINE_AUTO 0 /* LOCUS_ENGINE_BRICKS */
 #define LOCUS_ENGINE_HEAP 1   /* Dijkstra with a binary heap: the oracle every other engine is tested against */
-#define LOCUS_ENGINE_BUCKET 2 /* Dijkstra with a ring of buckets, one per step of distance (Dial 1969) */
+#define LOCUS_ENGINE_BUCKET 2 /* Dijkstra with buckets (Dial 1969) as wide as the smallest edge weight, in levels of 64 */
 #define LOCUS_ENGINE_RELAX 3  /* the thesis' base algorithm, sections 2.4.1 to 2.4.3: relax all active voxels, iterate */
 #define LOCUS_ENGINE_BRICKS 4 /* blocks of 14 x 8 x 8 voxels in SIMD registers, on several threads */
 
@@ -116,7 +116,7 @@ LOCUS_API locus_status locus_diagram_get_seeds(const locus_diagram *diagram, loc
  * object first, lowest voxel index on ties; with no seed yet, the first lies on the voxel farthest from the lowest passable
  * one), then move all free seeds to the centres of their cells (Lloyd: the centroid, then the closest voxel of the cell, lowest
  * index on ties) until none moves or the iterations are spent. `options` may not be NULL. Leaves the diagram unsolved.
- * Errors: LOCUS_E_ARGUMENT (more seeds than passable voxels, ids taken), LOCUS_E_RANGE, LOCUS_E_STATE (no passable voxel),
+ * Errors: LOCUS_E_ARGUMENT (more seeds than passable voxels, ids taken, a seed on a voxel that was made impassable), LOCUS_E_RANGE, LOCUS_E_STATE (no passable voxel),
  * LOCUS_E_MEMORY, LOCUS_E_STOPPED (by the progress callback); the seeds are as before then. Since 0.1. */
 LOCUS_API locus_status locus_diagram_place_seeds(locus_diagram *diagram,
                                                  const locus_place_options *options) LOCUS_NOEXCEPT;
@@ -144,8 +144,8 @@ LOCUS_API locus_status locus_diagram_distances_exact(const locus_diagram *diagra
 LOCUS_API locus_status locus_diagram_path(const locus_diagram *diagram, uint64_t x, uint64_t y, uint64_t z,
                                           uint64_t *voxels, size_t capacity, size_t *count) LOCUS_NOEXCEPT;
 
-/* Store the number of voxels of each seed's cell, in the order of locus_diagram_get_seeds. Errors: LOCUS_E_STATE,
- * LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Since 0.1. */
+/* Store the number of voxels of each seed's cell, in the order of locus_diagram_get_seeds. Errors: LOCUS_E_STATE
+ * (unsolved, or the seeds were changed since), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY (`*count` says how many there are). Since 0.1. */
 LOCUS_API locus_status locus_diagram_cell_sizes(const locus_diagram *diagram, uint64_t *sizes, size_t capacity,
                                                 size_t *count) LOCUS_NOEXCEPT;
 

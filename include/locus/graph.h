@@ -24,7 +24,8 @@ typedef struct locus_graph locus_graph;
 #define LOCUS_WEIGHT_CALLER 4          /* the caller's function; CPU only */
 
 /* What the numbers of the volume are. NaN, an infinite or negative compliance, and a NaN, negative or zero stiffness are
- * impassable; a compliance of 0 (an infinite stiffness) is the smallest step, never a free one. */
+ * impassable (so is a stiffness too small to be a normal float); a compliance of 0 (an infinite stiffness) is the smallest
+ * step, never a free one. */
 #define LOCUS_MATERIAL_COMPLIANCE 0 /* distance per length: mm of distance per mm, 1/Pa, ... */
 #define LOCUS_MATERIAL_STIFFNESS 1  /* its inverse: Young's modulus in Pa, ... */
 
@@ -46,9 +47,10 @@ typedef struct locus_graph locus_graph;
 #define LOCUS_SIMD_NEON 5
 
 /* The weight of the edge between the neighbouring voxels `u` and `v` (indices x + nx * (y + ny * z)), `length` long:
- * finite and >= 0, symmetric in u and v, and always the same for the same pair; a negative, NaN or infinite value means that there
- * is no such edge. Called for passable voxels only, by the thread that solves, or by several at once where the graph has
- * several threads. Must not throw, longjmp or call into the graph or its diagrams. */
+ * finite and >= 0, and always the same for the same pair; a negative, NaN or infinite value means that there is no such
+ * edge. Called with u < v, so that both directions weigh the same, and for passable voxels only; by the thread that
+ * solves, or by several at once where the graph has several threads, and while the graph is made where material_min and
+ * material_max are not given. Must not throw, longjmp or call into the graph or its diagrams. */
 typedef double (*locus_weight_fn)(uint64_t u, uint64_t v, double length, void *user);
 
 typedef struct locus_graph_options {
@@ -59,7 +61,7 @@ typedef struct locus_graph_options {
     uint32_t weight_rule;      /* LOCUS_WEIGHT_; default LOCUS_WEIGHT_MEAN_COMPLIANCE */
     uint32_t material;         /* LOCUS_MATERIAL_; default LOCUS_MATERIAL_COMPLIANCE */
     uint32_t word_bits;        /* LOCUS_WORD_; default LOCUS_WORD_AUTO */
-    double stiffness_exponent; /* p of LOCUS_WEIGHT_MEAN_STIFFNESS, finite and > 0; default 1 */
+    double stiffness_exponent; /* p of LOCUS_WEIGHT_MEAN_STIFFNESS, in (0, 8]; default 1 */
     locus_weight_fn weight;    /* for LOCUS_WEIGHT_CALLER; default NULL */
     void *weight_user;
     uint64_t max_seeds;        /* seeds a diagram must be able to hold, 1..2^24: decides the label bits; default 65,535
@@ -69,7 +71,8 @@ typedef struct locus_graph_options {
                                   in (0, 0.5]; default 1/256 */
     double material_min;       /* the smallest and the largest passable value the graph must be able to take later, */
     double material_max;       /* beside those of the data given now; default NaN: only those of the data. For
-                                  LOCUS_WEIGHT_CALLER: the range of the function's weight divided by the length */
+                                  LOCUS_WEIGHT_CALLER: the range of the function's weight divided by the length; a
+                                  larger one met by a solve is LOCUS_E_RANGE */
     uint32_t threads;          /* most threads a call may use; default 0: one per core */
     uint32_t backend;          /* LOCUS_BACKEND_; default LOCUS_BACKEND_AUTO */
     uint32_t simd;             /* LOCUS_SIMD_; default LOCUS_SIMD_AUTO */
@@ -94,8 +97,8 @@ typedef struct locus_graph_info {
     double max_distance;        /* the same in units of distance */
     double weight_error;        /* bound of the relative rounding error of an edge weight, over the range of materials */
     double smallest_step;       /* the smallest edge weight, in units of distance */
-    uint32_t overflow_free;     /* 1: no shortest path of this graph can exceed max_exact; 0: a solve may find that one does
-                                   and return LOCUS_E_RANGE */
+    uint32_t overflow_free;     /* 1: no shortest path of the graph as it is now can exceed max_exact (from seeds that start
+                                   at 0); 0: a solve may find that one does and return LOCUS_E_RANGE */
     uint32_t threads;           /* threads a call may use */
     uint32_t backend;           /* the backend chosen */
     uint32_t simd;              /* the instruction set chosen */
@@ -113,7 +116,11 @@ LOCUS_API locus_status locus_graph_options_init(locus_graph_options *options, si
 
 /* Make a graph. `material` holds dims[0]*dims[1]*dims[2] values, x fastest, and is copied; NULL makes every voxel
  * impassable, to be filled box by box with locus_graph_set_box, and needs material_min and material_max (or a scale).
- * Word width, scale and label bits are fixed here; locus_graph_get_info reports them.
+ * Word width, scale and label bits are fixed here, and locus_graph_get_info reports them: label bits for max_seeds;
+ * LOCUS_WORD_AUTO takes 32 bits where no path can overflow them at the precision asked for, else 64; the scale is the
+ * largest at which no path can overflow, where that meets the precision (a path visits each voxel at most once, at the
+ * largest material declared or, with none declared, at its own), else the smallest that meets the precision.
+ * A chosen scale is a power of two where one fits.
  * `*graph` is the caller's, to be ended with locus_graph_destroy; NULL on any error.
  * Errors: LOCUS_E_ARGUMENT (an option out of its range), LOCUS_E_RANGE (the materials cannot be represented in the words
  * asked for), LOCUS_E_UNSUPPORTED (a forced backend or instruction set is not there), LOCUS_E_MEMORY. Any thread. Since 0.1. */
@@ -129,8 +136,8 @@ LOCUS_API locus_status locus_graph_get_info(const locus_graph *graph, locus_grap
 
 /* Replace the materials of a box. `values` holds extent[0]*extent[1]*extent[2] numbers of the graph's kind (compliance or
  * stiffness), x fastest, dense. Diagrams of the graph keep their last result until they are solved or updated again.
- * Errors: LOCUS_E_ARGUMENT (a box outside the grid), LOCUS_E_RANGE (a value the graph's scale cannot represent; nothing is
- * changed), LOCUS_E_MEMORY. Not beside any other call on the graph or its diagrams. Since 0.1. */
+ * Errors: LOCUS_E_ARGUMENT (a box outside the grid), LOCUS_E_RANGE (a value so large that its weights do not fit the words, or so small
+ * that their rounding error exceeds the precision and that of the materials so far; nothing is changed), LOCUS_E_MEMORY. Not beside any other call on the graph or its diagrams. Since 0.1. */
 LOCUS_API locus_status locus_graph_set_box(locus_graph *graph, const locus_voxel_box *box,
                                            const float *values) LOCUS_NOEXCEPT;
 
@@ -144,7 +151,7 @@ LOCUS_API locus_status locus_graph_fill_box(locus_graph *graph, const locus_voxe
 LOCUS_API locus_status locus_graph_set_voxels(locus_graph *graph, const uint64_t *voxels, const float *values,
                                               size_t count) LOCUS_NOEXCEPT;
 
-/* Read the materials of a box back into `values`, which has room for `capacity` numbers: the values given, NaN where
+/* Read the materials of a box (NULL: the whole grid) back into `values`, which has room for `capacity` numbers: the values given, NaN where
  * impassable. Errors: LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_graph_get_box(const locus_graph *graph, const locus_voxel_box *box, float *values,
                                            size_t capacity) LOCUS_NOEXCEPT;
