@@ -14,12 +14,14 @@ using namespace locus::io;
 
 namespace {
 
-constexpr size_t info_size_0_1 = sizeof(locus_volume_info);
-constexpr size_t read_size_0_1 = sizeof(locus_volume_read_options);
-constexpr size_t write_size_0_1 = sizeof(locus_volume_write_options);
-static_assert(info_size_0_1 == 192, "append only; then pin the first release's size");
-static_assert(read_size_0_1 == 128, "append only; then pin the first release's size");
-static_assert(write_size_0_1 == 16, "append only; then pin the first release's size");
+// Sizes of the first release; fields are only ever appended.
+constexpr size_t first_info_size = 192;
+constexpr size_t first_read_size = 128;
+constexpr size_t first_write_size = 16;
+static_assert(sizeof(locus_volume_info) == first_info_size, "append only; then keep first_info_size a number");
+static_assert(sizeof(locus_volume_read_options) == first_read_size, "append only; then keep first_read_size a number");
+static_assert(sizeof(locus_volume_write_options) == first_write_size,
+              "append only; then keep first_write_size a number");
 
 locus_volume_read_options default_read_options() {
     locus_volume_read_options options{};
@@ -33,7 +35,7 @@ locus_volume_read_options default_read_options() {
 locus_volume_write_options default_write_options() { return {sizeof(locus_volume_write_options), 0, 0}; }
 
 locus_volume_read_options checked(const locus_volume_read_options *given) {
-    const auto options = read_options(given, default_read_options(), read_size_0_1);
+    const auto options = read_options(given, default_read_options(), first_read_size);
     require(options.memory_limit > 0, "memory_limit is 0");
     require(options.numbers <= LOCUS_READ_KEEP, "numbers is ", options.numbers, ", none of LOCUS_READ_");
     require(options.format <= LOCUS_VOLUME_RAW, "format is ", options.format, ", none of LOCUS_VOLUME_");
@@ -44,7 +46,7 @@ locus_volume_read_options checked(const locus_volume_read_options *given) {
 }
 
 locus_volume_write_options checked(const locus_volume_write_options *given) {
-    const auto options = read_options(given, default_write_options(), write_size_0_1);
+    const auto options = read_options(given, default_write_options(), first_write_size);
     require(options.format <= LOCUS_VOLUME_NRRD, "format is ", options.format, ", not one that is written");
     require(options.compression <= 9, "compression is ", options.compression, ", outside 0..9");
     return options;
@@ -53,15 +55,15 @@ locus_volume_write_options checked(const locus_volume_write_options *given) {
 } // namespace
 
 locus_status locus_volume_info_init(locus_volume_info *info, size_t size) noexcept {
-    return boundary(__func__, [&] { init_options(info, size, default_info(), info_size_0_1, "info"); });
+    return boundary(__func__, [&] { init_options(info, size, default_info(), first_info_size, "info"); });
 }
 
 locus_status locus_volume_read_options_init(locus_volume_read_options *options, size_t size) noexcept {
-    return boundary(__func__, [&] { init_options(options, size, default_read_options(), read_size_0_1); });
+    return boundary(__func__, [&] { init_options(options, size, default_read_options(), first_read_size); });
 }
 
 locus_status locus_volume_write_options_init(locus_volume_write_options *options, size_t size) noexcept {
-    return boundary(__func__, [&] { init_options(options, size, default_write_options(), write_size_0_1); });
+    return boundary(__func__, [&] { init_options(options, size, default_write_options(), first_write_size); });
 }
 
 locus_status locus_volume_read(const char *path, const locus_volume_read_options *options,
@@ -76,14 +78,14 @@ locus_status locus_volume_read_info(const char *path, const locus_volume_read_op
                                     locus_volume_info *info) noexcept {
     return boundary(__func__, [&] {
         need(info, "info");
-        write_report(info, probe_volume(&need(path, "path"), checked(options)), info_size_0_1, "info");
+        write_report(info, probe_volume(&need(path, "path"), checked(options)), first_info_size, "info");
     });
 }
 
 void locus_volume_destroy(locus_volume *volume) noexcept { delete volume; }
 
 locus_status locus_volume_get_info(const locus_volume *volume, locus_volume_info *info) noexcept {
-    return boundary(__func__, [&] { write_report(info, need(volume, "volume").info, info_size_0_1, "info"); });
+    return boundary(__func__, [&] { write_report(info, need(volume, "volume").info, first_info_size, "info"); });
 }
 
 const void *locus_volume_data(const locus_volume *volume) noexcept {
@@ -96,7 +98,7 @@ locus_status locus_volume_write(const char *path, const locus_volume_info *info,
         need(path, "path");
         require(data != nullptr, "data is NULL");
         need(info, "info");
-        const locus_volume_info whole = read_options(info, default_info(), info_size_0_1);
+        const locus_volume_info whole = read_options(info, default_info(), first_info_size);
         check_info(whole, LOCUS_E_ARGUMENT, "info->");
         require(whole.slope == 1 && whole.intercept == 0, "info->slope and intercept are ", whole.slope, " and ",
                 whole.intercept, ": apply them to the numbers first");

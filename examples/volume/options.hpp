@@ -1,0 +1,40 @@
+// The command line of the volume program.
+#pragma once
+
+#include "volume/transfer.hpp"
+
+#include <locus/diagram.h>
+#include <locus/volume.h>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace volume {
+
+struct Options {
+    std::string input;
+    std::string out = "volume-out";
+    std::string title;
+    locus_volume_read_options read{}; // of the input, raw files included
+    std::string flip;                 // grid axes that run against the world's, among x, y, z
+    std::optional<TransferTable> table;
+    std::string seeds_file;
+    uint64_t place = 0;
+    uint32_t lloyd = 100;
+    uint32_t metric = LOCUS_PLACE_COMPLIANCE;
+    uint32_t connectivity = 26;
+    uint32_t weight_rule = LOCUS_WEIGHT_MEAN_COMPLIANCE;
+    uint32_t word_bits = LOCUS_WORD_AUTO;
+    uint32_t engine = LOCUS_ENGINE_AUTO;
+    uint32_t threads = 0;
+    std::optional<std::array<uint64_t, 3>> slice;
+    std::optional<std::array<double, 2>> window; // values shown black and white
+    bool anatomy = false;
+    bool trace = true;
+};
+
+// Parse the command line; prints the help or what is wrong and returns the exit status where the program must end.
+std::optional<int> parse_options(int count, char **words, Options &options);
+
+} // namespace volume

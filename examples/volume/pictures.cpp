@@ -1,0 +1,246 @@
+// Sheets of three slices.
+#include "volume/pictures.hpp"
+
+#include "common/canvas.hpp"
+#include "common/colour_map.hpp"
+#include "volume/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace volume {
+namespace {
+
+using demo::Canvas;
+using demo::Colour;
+using demo::Font;
+
+constexpr Colour paper{16, 17, 20}, ink{232, 232, 232}, faint{150, 152, 158}, black{0, 0, 0}, white{255, 255, 255};
+constexpr int margin = 28, gap = 36, head = 70, foot = 84;
+constexpr double target_width = 1460, most_height = 860;
+constexpr int contours = 12; // about as many lines over the range of distances
+
+// What a sheet shows, settled once for all its pixels.
+struct Look {
+    double dark, bright; // grey window
+    double unit;         // shown distance = distance * unit
+    double range, step;  // shown distances: end of the colour map, between contour lines
+};
+
+double percentile(std::vector<float> &numbers, double part) {
+    if (numbers.empty())
+        return 0;
+    const auto place = numbers.begin() + static_cast<ptrdiff_t>(part * static_cast<double>(numbers.size() - 1));
+    std::ranges::nth_element(numbers, place);
+    return double{*place};
+}
+
+Look look_at(const Options &options, const Input &input, const Material &material, const Result &result) {
+    const size_t stride = std::max<size_t>(1, result.labels.size() / 1'000'000); // a sample is enough for percentiles
+    std::vector<float> greys, distances;
+    for (size_t i = 0; i < result.labels.size(); i += stride) {
+        if (std::isfinite(input.values()[i]))
+            greys.push_back(input.values()[i]);
+        if (result.labels[i] != LOCUS_NO_SEED)
+            distances.push_back(result.distances[i]);
+    }
+    Look look{};
+    look.dark = options.window ? (*options.window)[0] : percentile(greys, 0.01);
+    look.bright = options.window ? (*options.window)[1] : percentile(greys, 0.99);
+    if (!(look.bright > look.dark))
+        look.bright = look.dark + 1;
+    look.unit = material.softest;
+    look.range = std::max(percentile(distances, 0.995) * look.unit, 1e-30);
+    look.step = round_step(look.range, contours);
+    return look;
+}
+
+struct Pixel {
+    Colour grey;
+    uint32_t label = LOCUS_NO_SEED;
+    double distance = 0; // as shown
+    bool reached = false;
+};
+
+using Paint = std::function<Colour(const Pixel &)>;
+
+// One slice at `scale` pixels per unit of length: every pixel painted, cell borders and contour lines over it.
+Canvas draw_panel(const Slicer &slicer, const Slice &slice, const Look &look, const Result &result, double scale,
+                  const Paint &paint) {
+    const int width = std::max(1, static_cast<int>(std::lround(slice.width * scale)));
+    const int height = std::max(1, static_cast<int>(std::lround(slice.height * scale)));
+    std::vector<Pixel> pixels(static_cast<size_t>(width) * static_cast<size_t>(height));
+    const auto at = [&](int x, int y) -> Pixel & {
+        return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto grid = slicer.grid_at(slice, (x + 0.5) / scale, (y + 0.5) / scale);
+            Pixel &pixel = at(x, y);
+            const double value = double{slicer.value(slice, grid)};
+            const double light = std::isfinite(value) ? (value - look.dark) / (look.bright - look.dark) : 0;
+            pixel.grey = demo::colour_of(demo::ColourMap::grey, light);
+            pixel.label = result.labels[slicer.nearest(grid)];
+            const auto distance = slicer.distance(slice, grid);
+            pixel.reached = distance.has_value();
+            pixel.distance = double{distance.value_or(0)} * look.unit;
+        }
+    Canvas canvas(width, height, paper);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Pixel &here = at(x, y);
+            Colour colour = paint(here);
+            for (const auto &[dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
+                if (x + dx >= width || y + dy >= height)
+                    continue;
+                const Pixel &next = at(x + dx, y + dy);
+                if (!here.reached || !next.reached)
+                    continue;
+                if (here.label != next.label)
+                    colour = demo::mix(colour, black, 0.8);
+                else if (std::floor(here.distance / look.step) != std::floor(next.distance / look.step))
+                    colour = demo::mix(colour, white, 0.75);
+            }
+            canvas.set(x, y, colour);
+        }
+    return canvas;
+}
+
+// Half the size, four pixels averaged into one: smooth lines.
+Canvas halved(const Canvas &large) {
+    Canvas small(std::max(1, large.width() / 2), std::max(1, large.height() / 2), paper);
+    for (int y = 0; y < small.height(); ++y)
+        for (int x = 0; x < small.width(); ++x) {
+            const int right = std::min(2 * x + 1, large.width() - 1), below = std::min(2 * y + 1, large.height() - 1);
+            const Colour top = demo::mix(large.at(2 * x, 2 * y), large.at(right, 2 * y), 0.5);
+            const Colour bottom = demo::mix(large.at(2 * x, below), large.at(right, below), 0.5);
+            small.set(x, y, demo::mix(top, bottom, 0.5));
+        }
+    return small;
+}
+
+// Seeds no farther from the slice than a twentieth of the volume's extent across it.
+void draw_seeds(Canvas &canvas, const Slicer &slicer, const Slice &slice, const Input &input, const Result &result,
+                double scale) {
+    const double reach = std::max(0.5, 0.05 * static_cast<double>(input.info.dims[slice.through]));
+    for (const locus_seed &seed : result.seeds) {
+        const std::array<uint64_t, 3> voxel{seed.x, seed.y, seed.z};
+        const double off = std::abs(static_cast<double>(voxel[slice.through]) - static_cast<double>(slice.at));
+        if (off > reach)
+            continue;
+        const auto place = slicer.place_of(slice, voxel);
+        canvas.disc(place[0] * scale, place[1] * scale, 4.5, black);
+        canvas.disc(place[0] * scale, place[1] * scale, 3.2, white);
+    }
+}
+
+void write_centred(Canvas &canvas, int x, int y, const std::string &text, Colour colour, Font font = Font::small) {
+    canvas.text(x - Canvas::text_width(text, font) / 2, y, text, colour, font);
+}
+
+// The panel's caption, the names of its sides, and lines where the other two slices cut it.
+void annotate(Canvas &sheet, const Slicer &slicer, const Slice &slice, int x, int y, int width, int height,
+              double scale) {
+    std::array<uint64_t, 3> centre{};
+    for (const Slice &other : slicer.slices())
+        centre[other.through] = other.at;
+    const auto cut = slicer.place_of(slice, centre);
+    sheet.line(x + cut[0] * scale, y, x + cut[0] * scale, y + height - 1, white, 0.22);
+    sheet.line(x, y + cut[1] * scale, x + width - 1, y + cut[1] * scale, white, 0.22);
+    sheet.frame(x - 1, y - 1, width + 2, height + 2, {70, 72, 78});
+    const int line = Canvas::text_height();
+    write_centred(sheet, x + width / 2, y + height + line / 2 + 4, slice.title, ink);
+    sheet.text(x - 12, y + height / 2 - line / 2, slice.left, faint);
+    sheet.text(x + width + 5, y + height / 2 - line / 2, slice.right, faint);
+    write_centred(sheet, x + width / 2, y - line - 2, slice.top, faint);
+    if (!slice.bottom.empty())
+        sheet.text(x + width / 2 - Canvas::text_width(slice.title) / 2 - 24, y + height + line / 2 + 4, slice.bottom,
+                   faint);
+}
+
+// A white bar of round length with its length beside it.
+void draw_scale_bar(Canvas &sheet, int x, int y, double scale, double extent, const std::string &unit) {
+    const double length = round_step(extent, 4);
+    const int pixels = static_cast<int>(std::lround(length * scale));
+    sheet.fill(x, y, pixels, 3, ink);
+    sheet.text(x + pixels + 8, y - Canvas::text_height() / 2 + 1, short_number(length) + unit, ink);
+}
+
+struct Sheet {
+    Canvas canvas;
+    int legend_y;
+};
+
+Sheet draw_sheet(const std::string &title, const std::string &subtitle, const Options &options, const Input &input,
+                 const Result &result, const Slicer &slicer, const Look &look, const Paint &paint) {
+    double widths = 0, tallest = 0;
+    for (const Slice &slice : slicer.slices()) {
+        widths += slice.width;
+        tallest = std::max(tallest, slice.height);
+    }
+    const double scale = std::min(target_width / widths, most_height / tallest);
+    std::vector<Canvas> panels;
+    int width = 2 * margin - gap, height = 0;
+    for (const Slice &slice : slicer.slices()) {
+        panels.push_back(halved(draw_panel(slicer, slice, look, result, 2 * scale, paint)));
+        draw_seeds(panels.back(), slicer, slice, input, result, scale);
+        width += panels.back().width() + gap;
+        height = std::max(height, panels.back().height());
+    }
+    const int wanted = 2 * margin + std::max(Canvas::text_width(title, Font::large), Canvas::text_width(subtitle));
+    Sheet sheet{Canvas(std::max(width, wanted), head + height + foot + 60, paper), head + height + foot};
+    sheet.canvas.text(margin, 14, title, ink, Font::large);
+    sheet.canvas.text(margin, 42, subtitle, faint);
+    int x = margin;
+    for (size_t i = 0; i < panels.size(); ++i) {
+        const int y = head + 16 + (height - panels[i].height()) / 2;
+        sheet.canvas.paste(panels[i], x, y);
+        annotate(sheet.canvas, slicer, slicer.slices()[i], x, y, panels[i].width(), panels[i].height(), scale);
+        x += panels[i].width() + gap;
+    }
+    draw_scale_bar(sheet.canvas, margin, sheet.legend_y + 8, scale, slicer.slices()[0].width,
+                   options.anatomy ? " mm" : "");
+    return sheet;
+}
+
+std::string contour_text(const Look &look, const Options &options) {
+    return "lines of equal distance every " + short_number(look.step) + (options.anatomy ? " mm" : "") +
+           " of the softest material";
+}
+
+} // namespace
+
+void draw_cells(const std::string &path, const Options &options, const Input &input, const Material &material,
+                const Result &result, const Slicer &slicer) {
+    const Look look = look_at(options, input, material, result);
+    const Paint paint = [](const Pixel &pixel) {
+        return pixel.reached ? demo::mix(pixel.grey, demo::label_colour(pixel.label), 0.55) : pixel.grey;
+    };
+    const Sheet sheet = draw_sheet(
+        options.title + ": Voronoi cells of " + std::to_string(result.seeds.size()) + " seeds",
+        contour_text(look, options) + "; dots: seeds near the slice", options, input, result, slicer, look, paint);
+    demo::write_png(path, sheet.canvas);
+}
+
+void draw_distances(const std::string &path, const Options &options, const Input &input, const Material &material,
+                    const Result &result, const Slicer &slicer) {
+    const Look look = look_at(options, input, material, result);
+    const Paint paint = [&](const Pixel &pixel) {
+        return pixel.reached ? demo::colour_of(demo::ColourMap::viridis, pixel.distance / look.range)
+                             : demo::mix(pixel.grey, paper, 0.55);
+    };
+    Sheet sheet = draw_sheet(options.title + ": distance to the nearest seed",
+                             contour_text(look, options) + "; dark lines: borders of cells", options, input, result,
+                             slicer, look, paint);
+    std::vector<demo::Mark> marks;
+    const double every = round_step(look.range, 6);
+    for (double mark = 0; mark <= look.range * 1.0001; mark += every)
+        marks.push_back({mark / look.range, short_number(mark)});
+    const int width = std::min(520, sheet.canvas.width() / 2);
+    demo::draw_legend(sheet.canvas, sheet.canvas.width() - margin - width - 16, sheet.legend_y, width, 14,
+                      demo::ColourMap::viridis, marks, ink);
+    demo::write_png(path, sheet.canvas);
+}
+
+} // namespace volume
