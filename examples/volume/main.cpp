@@ -7,6 +7,7 @@
 
 #include "common/progress.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -3,6 +3,8 @@ DEMO_OUT ?= build/demo
 EXAMPLE_COMMON := $(patsubst %,$(OUT)/%.o,$(wildcard examples/common/*.cpp))
 # private: not for the libraries, which the programs have as prerequisites.
 $(OUT)/examples/%: private CPPFLAGS_ALL := -Iinclude -Iexamples $(CPPFLAGS)
+# g++ 12 sees overlapping copies in joined strings where there are none (its bug 105651).
+$(OUT)/examples/%: private EXTRA_CXXFLAGS += $(if $(findstring clang,$(CXX)),,-Wno-restrict)
 
 # $(eval $(call example,NAME,LIBS)): $(OUT)/bin/NAME from examples/NAME/*.cpp and what the examples share.
 define example
@@ -36,3 +38,36 @@ MEMCHECK_RUNS += memcheck-stream
 UNIT_LIBS_examples := -lpng -lz
 $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/examples/*.cpp)): EXTRA_CPPFLAGS += -Iexamples
 $(OUT)/tests/unit_examples: $(EXAMPLE_COMMON) $(filter-out %/main.cpp.o,$(OBJECTS_example_stream))
+
+# Volumes: a head CT out of InVesalius' compressed tar, and the steak where its data are.
+$(eval $(call example,volume,))
+VOLUME_OUT := $(DEMO_OUT)/volume
+CRANIUM := /usr/share/doc/invesalius-examples/examples/Cranium.inv3
+HEAD_CT := $(VOLUME_OUT)/head-ct.raw
+# Some systems install no documentation: then the archive comes out of the package itself.
+$(HEAD_CT): | $(call needs,demo)
+	@mkdir -p $(@D)
+	@if [ -r $(CRANIUM) ]; then cp $(CRANIUM) $@.tar; else cd $(@D) && apt-get download -q invesalius-examples && \
+	    dpkg-deb --fsys-tarfile invesalius-examples_*.deb | tar -xO .$(CRANIUM) >$(@F).tar; fi
+	@tar -xOf $@.tar --wildcards '*/matrix.dat' >$@.part
+	@rm -f $@.tar
+	@mv $@.part $@
+
+.PHONY: demo-volume demo-head demo-steak
+demo-volume: demo-head demo-steak
+# What its main.plist says of the matrix; its rows run from back to front.
+demo-head: $(EXAMPLE_volume) $(HEAD_CT) ## Voronoi cells of 32 seeds in a head CT
+	@$(EXAMPLE_volume) $(HEAD_CT) --raw 256 256 108 --raw-type int16 --raw-spacing 0.9570312 0.9570312 1.5 --flip y \
+	    --table examples/volume/head.table --largest-part --place 32 --lloyd 5 --title 'Head CT' --anatomy --window -250 1200 \
+	    --out $(VOLUME_OUT)/head
+demo-steak: $(EXAMPLE_volume) ## Voronoi cells of ten seeds in a T-bone steak, where LOCUS_DATA holds it
+	@if [ -r $(LOCUS_DATA)/steak/steak_64x64x15.mhd ]; then \
+	    $(EXAMPLE_volume) $(LOCUS_DATA)/steak/steak_64x64x15.mhd --table examples/volume/steak.table \
+	        --seeds $(LOCUS_DATA)/steak/seeds_10.txt --title 'T-bone steak' --out $(VOLUME_OUT)/steak; \
+	else echo "demo-steak: skipped, there is no $(LOCUS_DATA)/steak (set LOCUS_DATA)"; fi
+demo: demo-volume
+# One after the other, for the sake of what they print.
+demo-steak: | demo-head
+ifneq ($(filter demo,$(MAKECMDGOALS)),)
+demo-head: | demo-stream
+endif
