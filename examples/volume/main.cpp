@@ -48,7 +48,9 @@ void summarize_graph(const Input &input, const Material &material) {
     check(locus_graph_get_info(material.graph.get(), &info));
     const double share = 100 * static_cast<double>(info.passable) / static_cast<double>(input.voxels());
     row("voxels", with_commas(input.voxels()) + " (" + triple(info.dims) + "), spacing " + triple(info.spacing));
-    row("passable", with_commas(info.passable) + " (" + short_number(share) + " %)");
+    row("passable",
+        with_commas(info.passable) + " (" + short_number(share) + " %)" +
+            (material.dropped > 0 ? ", after dropping " + with_commas(material.dropped) + " in other parts" : ""));
     row("stiffness", short_number(material.softest) + " to " + short_number(material.stiffest));
     row("word",
         std::to_string(info.word_bits) + " bits, " + std::to_string(info.label_bits) + " of them for the label");

@@ -104,6 +104,8 @@ Material make_material(const Options &options, const Input &input) {
     for (size_t i = 0; i < stiffness.size(); ++i)
         stiffness[i] = options.table->stiffness(values[i]);
     Material material;
+    if (options.largest_part)
+        material.dropped = keep_largest_part(stiffness, input.info.dims, options.connectivity);
     for (const float value : stiffness) {
         if (std::isnan(value))
             continue;

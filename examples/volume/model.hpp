@@ -34,10 +34,15 @@ Input read_input(const Options &options);
 struct Material {
     Graph graph;
     uint64_t passable = 0;
+    uint64_t dropped = 0; // voxels of all parts but the largest, if they were not wanted
     double softest = std::numeric_limits<double>::infinity(); // of the passable voxels
     double stiffest = 0;
 };
 Material make_material(const Options &options, const Input &input);
+
+// Make NaN what does not belong to the largest part of the voxels that are numbers, neighbours as in a graph of
+// `connectivity`; returns how many voxels that were.
+uint64_t keep_largest_part(std::vector<float> &stiffness, const uint64_t dims[3], uint32_t connectivity);
 
 // The seeds of a file, all fixed; throws what is wrong with which line.
 std::vector<locus_seed> read_seeds(const std::string &path);

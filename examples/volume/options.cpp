@@ -51,15 +51,12 @@ const std::map<std::string, uint32_t> engines{{"auto", LOCUS_ENGINE_AUTO},
                                               {"bucket", LOCUS_ENGINE_BUCKET},
                                               {"relax", LOCUS_ENGINE_RELAX}};
 
-// An option that takes one of the names; the help lists them.
+// An option that takes one of the names; CLI11's help lists them.
 CLI::Option *choice(CLI::App &app, const std::string &name, uint32_t &value, const std::string &text,
                     const std::map<std::string, uint32_t> &names) {
-    std::string all;
-    for (const auto &[word, number] : names)
-        all += (all.empty() ? "" : ", ") + word;
     return app
         .add_option_function<std::string>(
-            name, [&value, &names](const std::string &word) { value = names.at(word); }, text + ": " + all)
+            name, [&value, &names](const std::string &word) { value = names.at(word); }, text)
         ->check(CLI::IsMember(names));
 }
 
@@ -96,6 +93,8 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
     auto *file_option = app.add_option("-t,--table", table, "file with the transfer table from value to stiffness");
     auto *map_option = app.add_option("-m,--map", map, "the transfer table itself, entries separated by ';'");
     file_option->excludes(map_option);
+    app.add_flag("--largest-part", options.largest_part,
+                 "drop all parts of the material but the largest connected one");
     choice(app, "--rule", options.weight_rule, "weight of an edge (default mean-compliance)", rules);
     app.add_option("--neighbours", options.connectivity, "of a voxel: 6, 18 or 26")
         ->check(CLI::IsMember({6, 18, 26}))

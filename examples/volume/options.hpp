@@ -19,6 +19,7 @@ struct Options {
     locus_volume_read_options read{}; // of the input, raw files included
     std::string flip;                 // grid axes that run against the world's, among x, y, z
     std::optional<TransferTable> table;
+    bool largest_part = false; // all other parts of the material are dropped
     std::string seeds_file;
     uint64_t place = 0;
     uint32_t lloyd = 100;

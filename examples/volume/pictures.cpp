@@ -17,9 +17,9 @@ using demo::Colour;
 using demo::Font;
 
 constexpr Colour paper{16, 17, 20}, ink{232, 232, 232}, faint{150, 152, 158}, black{0, 0, 0}, white{255, 255, 255};
-constexpr int margin = 28, gap = 36, head = 70, foot = 84;
+constexpr int margin = 28, gap = 36, head = 68, foot = 62;
 constexpr double target_width = 1460, most_height = 860;
-constexpr int contours = 12; // about as many lines over the range of distances
+constexpr int contours = 10; // about as many lines over the range of distances
 
 // What a sheet shows, settled once for all its pixels.
 struct Look {
@@ -63,7 +63,11 @@ struct Pixel {
     bool reached = false;
 };
 
-using Paint = std::function<Colour(const Pixel &)>;
+// How a sheet colours its pixels and how strong its contour lines are.
+struct Paint {
+    std::function<Colour(const Pixel &)> colour;
+    double contour;
+};
 
 // One slice at `scale` pixels per unit of length: every pixel painted, cell borders and contour lines over it.
 Canvas draw_panel(const Slicer &slicer, const Slice &slice, const Look &look, const Result &result, double scale,
@@ -90,7 +94,7 @@ Canvas draw_panel(const Slicer &slicer, const Slice &slice, const Look &look, co
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const Pixel &here = at(x, y);
-            Colour colour = paint(here);
+            Colour colour = paint.colour(here);
             for (const auto &[dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
                 if (x + dx >= width || y + dy >= height)
                     continue;
@@ -100,7 +104,7 @@ Canvas draw_panel(const Slicer &slicer, const Slice &slice, const Look &look, co
                 if (here.label != next.label)
                     colour = demo::mix(colour, black, 0.8);
                 else if (std::floor(here.distance / look.step) != std::floor(next.distance / look.step))
-                    colour = demo::mix(colour, white, 0.75);
+                    colour = demo::mix(colour, white, paint.contour);
             }
             canvas.set(x, y, colour);
         }
@@ -120,16 +124,16 @@ Canvas halved(const Canvas &large) {
     return small;
 }
 
-// Seeds no farther from the slice than a twentieth of the volume's extent across it.
+// Seeds near the slice, where their cells meet it: no farther off than a twentieth of the volume, or two voxels.
 void draw_seeds(Canvas &canvas, const Slicer &slicer, const Slice &slice, const Input &input, const Result &result,
                 double scale) {
-    const double reach = std::max(0.5, 0.05 * static_cast<double>(input.info.dims[slice.through]));
+    const double reach = std::max(2.0, 0.05 * static_cast<double>(input.info.dims[slice.through]));
     for (const locus_seed &seed : result.seeds) {
         const std::array<uint64_t, 3> voxel{seed.x, seed.y, seed.z};
         const double off = std::abs(static_cast<double>(voxel[slice.through]) - static_cast<double>(slice.at));
-        if (off > reach)
-            continue;
         const auto place = slicer.place_of(slice, voxel);
+        if (off > reach || result.labels[slicer.nearest(slicer.grid_at(slice, place[0], place[1]))] != seed.id)
+            continue;
         canvas.disc(place[0] * scale, place[1] * scale, 4.5, black);
         canvas.disc(place[0] * scale, place[1] * scale, 3.2, white);
     }
@@ -139,6 +143,15 @@ void write_centred(Canvas &canvas, int x, int y, const std::string &text, Colour
     canvas.text(x - Canvas::text_width(text, font) / 2, y, text, colour, font);
 }
 
+// The name of a panel's side, legible on any ground.
+void write_side(Canvas &canvas, int x, int y, const std::string &text) {
+    if (text.empty())
+        return;
+    const int width = Canvas::text_width(text);
+    canvas.fill(x - width / 2 - 4, y - 1, width + 8, Canvas::text_height() + 2, black, 0.55);
+    write_centred(canvas, x, y, text, ink);
+}
+
 // The panel's caption, the names of its sides, and lines where the other two slices cut it.
 void annotate(Canvas &sheet, const Slicer &slicer, const Slice &slice, int x, int y, int width, int height,
               double scale) {
@@ -146,17 +159,15 @@ void annotate(Canvas &sheet, const Slicer &slicer, const Slice &slice, int x, in
     for (const Slice &other : slicer.slices())
         centre[other.through] = other.at;
     const auto cut = slicer.place_of(slice, centre);
-    sheet.line(x + cut[0] * scale, y, x + cut[0] * scale, y + height - 1, white, 0.22);
-    sheet.line(x, y + cut[1] * scale, x + width - 1, y + cut[1] * scale, white, 0.22);
+    sheet.line(x + cut[0] * scale, y, x + cut[0] * scale, y + height - 1, white, 0.2);
+    sheet.line(x, y + cut[1] * scale, x + width - 1, y + cut[1] * scale, white, 0.2);
     sheet.frame(x - 1, y - 1, width + 2, height + 2, {70, 72, 78});
-    const int line = Canvas::text_height();
-    write_centred(sheet, x + width / 2, y + height + line / 2 + 4, slice.title, ink);
-    sheet.text(x - 12, y + height / 2 - line / 2, slice.left, faint);
-    sheet.text(x + width + 5, y + height / 2 - line / 2, slice.right, faint);
-    write_centred(sheet, x + width / 2, y - line - 2, slice.top, faint);
-    if (!slice.bottom.empty())
-        sheet.text(x + width / 2 - Canvas::text_width(slice.title) / 2 - 24, y + height + line / 2 + 4, slice.bottom,
-                   faint);
+    const int line = Canvas::text_height(), middle = y + height / 2 - line / 2;
+    write_side(sheet, x + 14, middle, slice.left);
+    write_side(sheet, x + width - 14, middle, slice.right);
+    write_side(sheet, x + width / 2, y + 6, slice.top);
+    write_side(sheet, x + width / 2, y + height - line - 6, slice.bottom);
+    write_centred(sheet, x + width / 2, y + height + 8, slice.title, ink);
 }
 
 // A white bar of round length with its length beside it.
@@ -189,12 +200,12 @@ Sheet draw_sheet(const std::string &title, const std::string &subtitle, const Op
         height = std::max(height, panels.back().height());
     }
     const int wanted = 2 * margin + std::max(Canvas::text_width(title, Font::large), Canvas::text_width(subtitle));
-    Sheet sheet{Canvas(std::max(width, wanted), head + height + foot + 60, paper), head + height + foot};
+    Sheet sheet{Canvas(std::max(width, wanted), head + height + foot + 56, paper), head + height + foot};
     sheet.canvas.text(margin, 14, title, ink, Font::large);
     sheet.canvas.text(margin, 42, subtitle, faint);
     int x = margin;
     for (size_t i = 0; i < panels.size(); ++i) {
-        const int y = head + 16 + (height - panels[i].height()) / 2;
+        const int y = head + (height - panels[i].height()) / 2;
         sheet.canvas.paste(panels[i], x, y);
         annotate(sheet.canvas, slicer, slicer.slices()[i], x, y, panels[i].width(), panels[i].height(), scale);
         x += panels[i].width() + gap;
@@ -214,9 +225,10 @@ std::string contour_text(const Look &look, const Options &options) {
 void draw_cells(const std::string &path, const Options &options, const Input &input, const Material &material,
                 const Result &result, const Slicer &slicer) {
     const Look look = look_at(options, input, material, result);
-    const Paint paint = [](const Pixel &pixel) {
+    const auto colour = [](const Pixel &pixel) {
         return pixel.reached ? demo::mix(pixel.grey, demo::label_colour(pixel.label), 0.55) : pixel.grey;
     };
+    const Paint paint{colour, 0.5};
     const Sheet sheet = draw_sheet(
         options.title + ": Voronoi cells of " + std::to_string(result.seeds.size()) + " seeds",
         contour_text(look, options) + "; dots: seeds near the slice", options, input, result, slicer, look, paint);
@@ -226,10 +238,11 @@ void draw_cells(const std::string &path, const Options &options, const Input &in
 void draw_distances(const std::string &path, const Options &options, const Input &input, const Material &material,
                     const Result &result, const Slicer &slicer) {
     const Look look = look_at(options, input, material, result);
-    const Paint paint = [&](const Pixel &pixel) {
+    const auto colour = [&](const Pixel &pixel) {
         return pixel.reached ? demo::colour_of(demo::ColourMap::viridis, pixel.distance / look.range)
                              : demo::mix(pixel.grey, paper, 0.55);
     };
+    const Paint paint{colour, 0.75};
     Sheet sheet = draw_sheet(options.title + ": distance to the nearest seed",
                              contour_text(look, options) + "; dark lines: borders of cells", options, input, result,
                              slicer, look, paint);

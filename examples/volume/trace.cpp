@@ -60,12 +60,13 @@ void draw_trace(const std::string &path, const std::string &title, const std::ve
         return std::pair{left + (static_cast<double>(i) + 0.5) / x.end * plot_width,
                          top + plot_height - static_cast<double>(active[i]) / in_thousands / y.end * plot_height};
     };
-    for (int column = 0; column < plot_width; ++column) { // the area under the curve
-        const size_t i = static_cast<size_t>((column + 0.5) / plot_width * x.end);
-        if (i >= active.size())
-            break;
-        const int row = static_cast<int>(std::lround(place(i).second));
-        canvas.fill(left + column, row, 1, top + plot_height - row, area, 0.22);
+    for (size_t i = 1; i < active.size(); ++i) { // the area under the curve, column by column
+        const auto [x0, y0] = place(i - 1);
+        const auto [x1, y1] = place(i);
+        for (int column = static_cast<int>(std::ceil(x0)); column < x1; ++column) {
+            const int row = static_cast<int>(std::lround(std::lerp(y0, y1, (column - x0) / (x1 - x0))));
+            canvas.fill(column, row, 1, top + plot_height - row, area, 0.22);
+        }
     }
     for (size_t i = 1; i < active.size(); ++i) {
         const auto [x0, y0] = place(i - 1);
