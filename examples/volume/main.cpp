@@ -34,6 +34,8 @@ std::string engine_name(uint32_t engine) {
         return "heap";
     case LOCUS_ENGINE_BUCKET:
         return "bucket";
+    case LOCUS_ENGINE_BRICKS:
+        return "bricks";
     case LOCUS_ENGINE_RELAX:
         return "relax";
     default:

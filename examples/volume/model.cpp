@@ -90,6 +90,10 @@ Input read_input(const Options &options) {
     if (input.info.components != 1)
         throw std::runtime_error(options.input + ": " + std::to_string(input.info.components) +
                                  " numbers per voxel; the transfer table takes one");
+    for (size_t axis = 0; options.slice && axis < 3; ++axis)
+        if ((*options.slice)[axis] >= input.info.dims[axis])
+            throw std::runtime_error("--slice: index " + std::to_string((*options.slice)[axis]) + " of axis " +
+                                     "xyz"[axis] + " lies outside the volume");
     for (const char axis : options.flip) {
         double *direction = input.info.direction + 3 * (axis - 'x');
         for (int i = 0; i < 3; ++i)
@@ -126,6 +130,9 @@ Material make_material(const Options &options, const Input &input) {
     wanted.material = LOCUS_MATERIAL_STIFFNESS;
     wanted.word_bits = options.word_bits;
     wanted.threads = options.threads;
+    const uint64_t seeds = options.seeds.size() + options.place;
+    if (seeds > (options.word_bits == LOCUS_WORD_32 ? 256 : wanted.max_seeds))
+        wanted.max_seeds = seeds;
     locus_graph *graph = nullptr;
     check(locus_graph_create(&wanted, stiffness.data(), &graph));
     material.graph.reset(graph);
@@ -159,6 +166,8 @@ std::vector<locus_seed> read_seeds(const std::string &path) {
         seed.fixed = 1;
         seeds.push_back(seed);
     }
+    if (seeds.empty())
+        throw std::runtime_error(path + ": there is no seed in the file");
     return seeds;
 }
 
@@ -175,12 +184,9 @@ void write_seeds(const std::string &path, const std::vector<locus_seed> &seeds) 
 Result solve(const Options &options, const Input &input, locus_graph *graph) {
     const Diagram diagram = make_diagram(graph, options.engine, false);
     uint32_t next_id = 0;
-    if (!options.seeds_file.empty()) {
-        const auto seeds = read_seeds(options.seeds_file);
-        check(locus_diagram_add_seeds(diagram.get(), seeds.data(), seeds.size()));
-        for (const locus_seed &seed : seeds)
-            next_id = std::max(next_id, seed.id + 1);
-    }
+    check(locus_diagram_add_seeds(diagram.get(), options.seeds.data(), options.seeds.size()));
+    for (const locus_seed &seed : options.seeds)
+        next_id = std::max(next_id, seed.id + 1);
     Result result;
     const auto begin = std::chrono::steady_clock::now();
     if (options.place > 0)

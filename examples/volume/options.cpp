@@ -1,6 +1,8 @@
 // CLI11 turns the words into Options.
 #include "volume/options.hpp"
 
+#include "volume/model.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <map>
@@ -49,7 +51,8 @@ const std::map<std::string, uint32_t> words_of_bits{
 const std::map<std::string, uint32_t> engines{{"auto", LOCUS_ENGINE_AUTO},
                                               {"heap", LOCUS_ENGINE_HEAP},
                                               {"bucket", LOCUS_ENGINE_BUCKET},
-                                              {"relax", LOCUS_ENGINE_RELAX}};
+                                              {"relax", LOCUS_ENGINE_RELAX},
+                                              {"bricks", LOCUS_ENGINE_BRICKS}};
 
 // An option that takes one of the names; CLI11's help lists them.
 CLI::Option *choice(CLI::App &app, const std::string &name, uint32_t &value, const std::string &text,
@@ -71,7 +74,7 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
 
     std::vector<uint64_t> dims, slice;
     std::vector<double> spacing, window;
-    std::string map, table;
+    std::string map, table, seeds_file;
     double memory_gib = 8;
     bool big_endian = false, no_trace = false;
     app.add_option("input", options.input, "the volume file")->required();
@@ -101,7 +104,7 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
         ->capture_default_str();
     choice(app, "--word", options.word_bits, "bits of a voxel's distance and label (default auto)", words_of_bits);
 
-    app.add_option("-s,--seeds", options.seeds_file, "file with the seeds");
+    app.add_option("-s,--seeds", seeds_file, "file with the seeds");
     app.add_option("-p,--place", options.place, "place so many (more) seeds: farthest points, then Lloyd's iterations");
     app.add_option("--lloyd", options.lloyd, "most iterations of Lloyd")->capture_default_str();
     choice(app, "--metric", options.metric, "distances used for placing (default compliance)", metrics);
@@ -112,15 +115,20 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
         ->expected(3);
     app.add_option("--window", window, "values shown black and white; default: the 1st and 99th percentile")
         ->expected(2);
+    app.add_option("--width", options.width, "pixels across the three slices of a picture")
+        ->check(CLI::Range(30, 20000))
+        ->capture_default_str();
     app.add_flag("--anatomy", options.anatomy, "the volume is of a body: name the slices and their sides so");
     app.add_flag("--no-trace", no_trace, "skip the picture of active voxels per iteration");
     try {
         app.parse(count, words);
         if (map.empty() && table.empty())
             throw CLI::RequiredError("--table or --map");
-        if (options.seeds_file.empty() && options.place == 0)
+        if (seeds_file.empty() && options.place == 0)
             throw CLI::RequiredError("--seeds or --place");
         options.table = table.empty() ? TransferTable::parse(map, "--map") : TransferTable::read(table);
+        if (!seeds_file.empty())
+            options.seeds = read_seeds(seeds_file);
     } catch (const CLI::ParseError &error) {
         return app.exit(error);
     }

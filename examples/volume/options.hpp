@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace volume {
 
@@ -19,8 +20,8 @@ struct Options {
     locus_volume_read_options read{}; // of the input, raw files included
     std::string flip;                 // grid axes that run against the world's, among x, y, z
     std::optional<TransferTable> table;
-    bool largest_part = false; // all other parts of the material are dropped
-    std::string seeds_file;
+    bool largest_part = false;     // all other parts of the material are dropped
+    std::vector<locus_seed> seeds; // given ones, which stay where they are
     uint64_t place = 0;
     uint32_t lloyd = 100;
     uint32_t metric = LOCUS_PLACE_COMPLIANCE;
@@ -31,6 +32,7 @@ struct Options {
     uint32_t threads = 0;
     std::optional<std::array<uint64_t, 3>> slice;
     std::optional<std::array<double, 2>> window; // values shown black and white
+    int width = 1460;                            // of the three slices together, in pixels
     bool anatomy = false;
     bool trace = true;
 };

@@ -18,8 +18,8 @@ using demo::Font;
 
 constexpr Colour paper{16, 17, 20}, ink{232, 232, 232}, faint{150, 152, 158}, black{0, 0, 0}, white{255, 255, 255};
 constexpr int margin = 28, gap = 36, head = 68, foot = 62;
-constexpr double target_width = 1460, most_height = 860;
-constexpr int contours = 10; // about as many lines over the range of distances
+constexpr double most_height = 0.6; // of a slice, in widths of the three
+constexpr int contours = 10;        // about as many lines over the range of distances
 
 // What a sheet shows, settled once for all its pixels.
 struct Look {
@@ -190,7 +190,7 @@ Sheet draw_sheet(const std::string &title, const std::string &subtitle, const Op
         widths += slice.width;
         tallest = std::max(tallest, slice.height);
     }
-    const double scale = std::min(target_width / widths, most_height / tallest);
+    const double scale = options.width * std::min(1 / widths, most_height / tallest);
     std::vector<Canvas> panels;
     int width = 2 * margin - gap, height = 0;
     for (const Slice &slice : slicer.slices()) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace volume {
 namespace {
@@ -30,10 +29,6 @@ std::array<int, 3> grid_axes(const locus_volume_info &info) {
 
 Slicer::Slicer(const Options &options, const Input &input, const Result &result) : input_(input), result_(result) {
     const std::array<uint64_t, 3> centre = options.slice ? *options.slice : centre_of_material();
-    for (int axis = 0; axis < 3; ++axis)
-        if (centre[axis] >= input.info.dims[axis])
-            throw std::runtime_error("--slice: index " + std::to_string(centre[axis]) + " of axis " + "xyz"[axis] +
-                                     " lies outside the volume");
     const std::array<int, 3> axes = grid_axes(input.info);
     const bool anatomy = options.anatomy;
     slices_ = {make("axial", left, posterior, false, axes, centre, anatomy),

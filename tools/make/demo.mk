@@ -66,6 +66,13 @@ demo-steak: $(EXAMPLE_volume) ## Voronoi cells of ten seeds in a T-bone steak, w
 	        --seeds $(LOCUS_DATA)/steak/seeds_10.txt --title 'T-bone steak' --out $(VOLUME_OUT)/steak; \
 	else echo "demo-steak: skipped, there is no $(LOCUS_DATA)/steak (set LOCUS_DATA)"; fi
 demo: demo-volume
+
+# The program from end to end on a small volume, under Valgrind.
+MEMCHECK_RUNS += memcheck-volume
+.PHONY: memcheck-volume
+memcheck-volume: $(EXAMPLE_volume) | $(call needs,test)
+	$(STAGE) $(FLAVOUR)$@ env RUN='$(MEMCHECK)' tests/examples/volume.sh $(EXAMPLE_volume)
+
 # One after the other, for the sake of what they print.
 demo-steak: | demo-head
 ifneq ($(filter demo,$(MAKECMDGOALS)),)
