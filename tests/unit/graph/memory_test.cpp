@@ -3,19 +3,22 @@
 #include "tests/unit/graph/api.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <initializer_list>
 #include <new>
 
 namespace {
 
-long allocations_left = -1; // negative: all succeed
+std::atomic<long> allocations_left{-1}; // negative: all succeed; any thread may count down
 
 void *allocate(std::size_t size) {
-    if (allocations_left == 0)
-        return nullptr;
-    if (allocations_left > 0)
-        --allocations_left;
+    for (long left = allocations_left; left >= 0;) {
+        if (left == 0)
+            return nullptr;
+        if (allocations_left.compare_exchange_weak(left, left - 1))
+            break;
+    }
     return std::malloc(size == 0 ? 1 : size);
 }
 
