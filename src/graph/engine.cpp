@@ -46,7 +46,46 @@ uint64_t next_distance_of(const Graph &graph, const std::vector<Word> &words) {
     return next;
 }
 
+template <typename Word>
+Change difference_of(const Graph &graph, const std::vector<Word> &before, const std::vector<Word> &after) {
+    Change change;
+    std::array<uint64_t, 3> first = graph.grid().dims(), last{};
+    for (uint64_t v = 0; v < after.size(); ++v) {
+        if (after[v] == (before.empty() ? static_cast<Word>(graph.layout().unreached()) : before[v]))
+            continue;
+        ++change.voxels;
+        const auto place = graph.grid().place(v);
+        for (size_t axis = 0; axis < 3; ++axis) {
+            first[axis] = std::min(first[axis], place[axis]);
+            last[axis] = std::max(last[axis], place[axis]);
+        }
+    }
+    for (size_t axis = 0; axis < 3 && change.voxels > 0; ++axis) {
+        change.box.origin[axis] = first[axis];
+        change.box.extent[axis] = last[axis] - first[axis] + 1;
+    }
+    return change;
+}
+
+Change difference(const Graph &graph, const Words &before, const Words &after) {
+    return std::visit(
+        [&](const auto &now) {
+            using Dense = std::remove_cvref_t<decltype(now)>;
+            const auto *then = std::get_if<Dense>(&before);
+            return difference_of(graph, then != nullptr ? *then : Dense{}, now);
+        },
+        after);
+}
+
 } // namespace
+
+Report Engine::update(const Problem &problem, Words &words, Progress &progress, Change &change) {
+    Words fresh;
+    const Report report = solve(problem, fresh, progress);
+    change = difference(problem.graph, words, fresh);
+    words = std::move(fresh);
+    return report;
+}
 
 uint64_t next_distance(const Graph &graph, const Words &words) {
     return std::visit([&](const auto &each) { return next_distance_of(graph, each); }, words);

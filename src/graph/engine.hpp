@@ -20,6 +20,7 @@ struct Source {
     uint64_t voxel;    // passable
     uint64_t distance; // in steps, at most max_exact
     uint32_t label;    // below layout().labels(); of equal distances the smaller label wins
+    bool operator==(const Source &) const = default;
 };
 
 struct Problem {
@@ -54,12 +55,21 @@ struct Report {
 // A word per voxel, x fastest; unreached() where no source reaches within the limit, and on impassable voxels.
 using Words = std::variant<std::vector<uint32_t>, std::vector<uint64_t>>;
 
+// The voxels whose words an update changed, and the smallest box around them; its extents are 0 where there are none.
+struct Change {
+    uint64_t voxels = 0;
+    Box box{};
+};
+
 class Engine {
 public:
     virtual ~Engine() = default;
     virtual uint32_t kind() const = 0; // LOCUS_ENGINE_
     // Whatever is thrown (out of memory, stopped, a caller's weight out of range), `words` is as before then.
     virtual Report solve(const Problem &problem, Words &words, Progress &progress) = 0;
+    // The same words, where `words` are still those of this engine's latest solve or update, of the same graph; engines
+    // that can do so look only at what was edited since. The plain way: solve and compare.
+    virtual Report update(const Problem &problem, Words &words, Progress &progress, Change &change);
 };
 
 // The engine for a LOCUS_ENGINE_ constant; throws LOCUS_E_ARGUMENT for others.

@@ -19,7 +19,7 @@ public:
         // Alternating directions carry a change far within one pass, whichever way it goes.
         for (bool up = true; v_.active != 0; up = !up)
             up ? ascend() : descend();
-        reach_out();
+        v_.raise ? wake_all_around() : reach_out();
     }
 
 protected:
@@ -59,30 +59,58 @@ private:
         }
     }
 
-    // Lanes 0 and 15 belong to the x-neighbours: they are not stored, but where they would improve, that neighbour is
-    // woken.
     LOCUS_INLINE void update(unsigned row) {
-        const RowMask bit = RowMask{1} << row;
-        v_.active &= ~bit;
+        v_.active &= ~(RowMask{1} << row);
         ++v_.updates;
         rule().prepare(row);
+        v_.raise ? raise(row) : lower(row);
+    }
+
+    // Lanes 0 and 15 belong to the x-neighbours: they are not stored, but where they would improve, that neighbour is
+    // woken.
+    LOCUS_INLINE void lower(unsigned row) {
         const Row old = L::load(own_[row].word);
         const Row best = L::min(rule().pull(row), old);
         const uint32_t better = L::differ(best, old);
         if (better == 0)
             return;
         if ((better & ~kOwnLanes) != 0)
-            wake_beside(bit, better, best);
-        const uint32_t own = better & kOwnLanes;
-        if (own == 0)
-            return;
-        const Row now = L::inner(best, old);
+            wake_beside(RowMask{1} << row, better, best);
+        if ((better & kOwnLanes) != 0)
+            store(row, better & kOwnLanes, L::inner(best, old));
+    }
+
+    // A word smaller than all that the neighbours offer has lost its path, unless a seed lies there. Weights are at
+    // least 1: voxels cannot support each other in a circle.
+    LOCUS_NOINLINE void raise(unsigned row) {
+        const Row old = L::load(own_[row].word);
+        const Row offered = anchored(row, rule().pull(row));
+        const Row none = L::all(v_.unreached);
+        const uint32_t lost = L::differ(L::min(offered, old), offered) & L::differ(old, none) & kOwnLanes;
+        if (lost != 0)
+            store(row, lost, L::blocked(old, lost, none));
+    }
+    LOCUS_INLINE Row anchored(unsigned row, Row offered) const {
+        alignas(64) Word word[kLanes];
+        for (const Anchor<Word> &anchor : v_.anchors) {
+            if (anchor.row != row)
+                continue;
+            L::store(offered, word);
+            if (anchor.word < word[anchor.lane])
+                word[anchor.lane] = anchor.word;
+            offered = L::load(word);
+        }
+        return offered;
+    }
+
+    LOCUS_INLINE void store(unsigned row, uint32_t lanes, Row now) {
+        const RowMask bit = RowMask{1} << row;
         L::store(now, own_[row].word);
         rule().stored(row, now);
         v_.changed |= bit;
-        if ((own & 2u) != 0)
+        if ((lanes & 2u) != 0)
             v_.changed_first |= bit;
-        if ((own & 0x4000u) != 0)
+        if ((lanes & 0x4000u) != 0)
             v_.changed_last |= bit;
         v_.active |= dilate(bit);
     }
@@ -101,6 +129,18 @@ private:
         w.rows |= rows;
         if (key < w.key)
             w.key = key;
+    }
+
+    // Every row around one that was raised may have lost its support.
+    LOCUS_INLINE void wake_all_around() {
+        for (int dz = -1; dz <= 1; ++dz)
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const RowMask from = dx == 0 ? v_.changed : dx < 0 ? v_.changed_first : v_.changed_last;
+                    const RowMask rows = touched(from, dy, dz);
+                    if (rows != 0 && (dx != 0 || dy != 0 || dz != 0))
+                        wake(neighbour_number(dx, dy, dz), rows, 0);
+                }
     }
 
     // Where rows on a border in y or z changed: which rows across it would improve? Only those are woken.

@@ -18,8 +18,18 @@ namespace locus::bricks {
 template <typename Word>
 class Schedule {
 public:
-    Schedule(const Store<Word> &store, unsigned threads, unsigned width_bits)
-        : store_(store), width_bits_(width_bits), state_(store.layout().count()), slot_(threads) {}
+    // Keys are told apart down to 2^width_bits.
+    Schedule(const Store<Word> &store, unsigned width_bits)
+        : store_(store), width_bits_(width_bits), state_(store.layout().count()) {}
+
+    // Before each run. What add() was given since the last run stays; a run that was stopped leaves a schedule that
+    // must not be used again.
+    void begin(unsigned threads) {
+        slot_.assign(threads, Slot{});
+        visits_ = 0;
+        seen_ = 0;
+        ++run_;
+    }
 
     struct Work {
         RowMask active = 0, changed = 0, changed_first = 0, changed_last = 0;
@@ -86,7 +96,7 @@ private:
     struct State {
         Work work;
         uint64_t bucket = kNotQueued;
-        bool seen = false;
+        uint64_t seen = 0; // the latest run that visited it
     };
     struct Entry {
         uint64_t bucket, arrival;
@@ -121,9 +131,9 @@ private:
                 continue;
             }
             const Taken taken{entry.brick, place, s.work};
-            if (!s.seen)
+            if (s.seen != run_)
                 seen_.fetch_add(1, std::memory_order_relaxed);
-            s = State{.work = {}, .bucket = kNotQueued, .seen = true};
+            s = State{.work = {}, .bucket = kNotQueued, .seen = run_};
             slot_[thread].busy = true;
             slot_[thread].place = place;
             ++running_;
@@ -149,7 +159,8 @@ private:
                     if (wake.rows == 0)
                         continue;
                     const size_t brick = store_.at({done.place.x + dx, done.place.y + dy, done.place.z + dz});
-                    add(brick, Work{wake.rows}, wake.key);
+                    if (brick != store_.outside())
+                        add(brick, Work{wake.rows}, wake.key);
                 }
         Slot &slot = slot_[thread];
         for (const Entry &entry : slot.waiting)
@@ -166,7 +177,7 @@ private:
     std::vector<State> state_;
     std::vector<Slot> slot_;
     std::vector<Entry> heap_;
-    uint64_t arrivals_ = 0, visits_ = 0;
+    uint64_t arrivals_ = 0, visits_ = 0, run_ = 0;
     std::atomic<uint64_t> seen_{0};
     unsigned running_ = 0, idle_ = 0;
     bool stopped_ = false;

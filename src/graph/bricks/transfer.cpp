@@ -76,68 +76,126 @@ void fill_words(Word word, Brick<Word> &brick) {
         std::fill_n(row.word, kLanes, word);
 }
 
-template <typename Word>
-uint64_t export_words(const graph::Graph &graph, const Place &place, const Brick<Word> &brick, Word unreached,
-                      Word *words) {
+void Exported::add(const Exported &other) {
+    reached += other.reached;
+    changed += other.changed;
+    gained += other.gained;
+    lost += other.lost;
+    for (size_t axis = 0; axis < 3; ++axis) {
+        first[axis] = std::min(first[axis], other.first[axis]);
+        last[axis] = std::max(last[axis], other.last[axis]);
+    }
+}
+
+graph::Change change_of(const Exported &exported) {
+    graph::Change change;
+    change.voxels = exported.changed;
+    for (size_t axis = 0; axis < 3 && change.voxels > 0; ++axis) {
+        change.box.origin[axis] = exported.first[axis];
+        change.box.extent[axis] = exported.last[axis] - exported.first[axis] + 1;
+    }
+    return change;
+}
+
+namespace {
+
+// Call row(x, y, z, own words, count) for the rows of a brick inside the grid.
+template <typename Word, typename Row>
+void for_rows(const graph::Graph &graph, const Place &place, const Brick<Word> &brick, Row &&row) {
     const auto &dims = graph.grid().dims();
     const Range x = range(place.x, kWidth, dims[0]), y = range(place.y, kSide, dims[1]),
                 z = range(place.z, kSide, dims[2]);
-    const auto none = static_cast<Word>(graph.layout().unreached());
     const auto count = static_cast<unsigned>(x.end - x.begin);
-    Word reached = 0;
     for (uint64_t vz = z.begin; vz < z.end; ++vz)
-        for (uint64_t vy = y.begin; vy < y.end; ++vy) {
-            const Word *from = brick.row[vy - y.begin + kSide * (vz - z.begin)].word + 1;
-            Word *to = words + graph.grid().index(x.begin, vy, vz);
-            const auto copy = [&](unsigned n) {
-                for (unsigned i = 0; i < n; ++i) {
-                    reached += from[i] < unreached ? 1 : 0;
-                    to[i] = from[i] < unreached ? from[i] : none;
-                }
-            };
-            count == kWidth ? copy(kWidth) : copy(count);
-        }
-    return reached;
+        for (uint64_t vy = y.begin; vy < y.end; ++vy)
+            row(x.begin, vy, vz, brick.row[vy - y.begin + kSide * (vz - z.begin)].word + 1, count);
 }
 
-std::vector<std::unique_ptr<Blocked>> blocked_edges(const graph::Graph &graph, const Layout &layout) {
-    std::vector<std::unique_ptr<Blocked>> blocked;
+} // namespace
+
+template <typename Word>
+Exported export_words(const graph::Graph &graph, const Place &place, const Brick<Word> &brick, Word unreached,
+                      Word *words) {
+    const auto none = static_cast<Word>(graph.layout().unreached());
+    Word reached = 0;
+    for_rows(graph, place, brick, [&](uint64_t x, uint64_t y, uint64_t z, const Word *from, unsigned count) {
+        Word *to = words + graph.grid().index(x, y, z);
+        const auto copy = [&](unsigned n) {
+            for (unsigned i = 0; i < n; ++i) {
+                reached += from[i] < unreached ? 1 : 0;
+                to[i] = from[i] < unreached ? from[i] : none;
+            }
+        };
+        count == kWidth ? copy(kWidth) : copy(count); // a constant length makes vector code
+    });
+    Exported exported;
+    exported.reached = reached;
+    return exported;
+}
+
+template <typename Word>
+Exported export_changes(const graph::Graph &graph, const Place &place, const Brick<Word> &brick, Word unreached,
+                        Word *words) {
+    const auto none = static_cast<Word>(graph.layout().unreached());
+    Exported exported;
+    for_rows(graph, place, brick, [&](uint64_t x, uint64_t y, uint64_t z, const Word *from, unsigned count) {
+        Word *to = words + graph.grid().index(x, y, z);
+        for (unsigned i = 0; i < count; ++i) {
+            const Word word = from[i] < unreached ? from[i] : none;
+            exported.reached += word != none ? 1 : 0;
+            if (word == to[i])
+                continue;
+            Exported voxel{0, 1, to[i] == none, word == none, {x + i, y, z}, {x + i, y, z}};
+            exported.add(voxel);
+            to[i] = word;
+        }
+    });
+    return exported;
+}
+
+std::unique_ptr<Blocked> blocked_edges(const graph::Graph &graph, const Place &place) {
     const uint16_t *cuts = graph.cuts();
+    std::unique_ptr<Blocked> blocked;
     if (cuts == nullptr)
         return blocked;
-    blocked.resize(layout.count());
-    const auto block_lane = [&](uint64_t bx, const std::array<uint64_t, 3> &v, uint64_t lane, unsigned number) {
-        auto &brick = blocked[layout.index(static_cast<uint32_t>(bx), static_cast<uint32_t>(v[1] / kSide),
-                                           static_cast<uint32_t>(v[2] / kSide))];
-        if (!brick)
-            brick = std::make_unique<Blocked>();
-        uint16_t &lanes = brick->lanes[v[1] % kSide + kSide * (v[2] % kSide)][number < 13 ? number : number + 1];
+    const graph::Grid &grid = graph.grid();
+    // Lane 0 is included, so that two bricks agree about the edges between them: else they would wake each other for
+    // ever.
+    const auto block = [&](const std::array<uint64_t, 3> &v, unsigned number) {
+        const uint64_t lane = v[0] + 1 - static_cast<uint64_t>(place.x) * kWidth; // huge before the brick
+        const uint64_t y = v[1] - static_cast<uint64_t>(place.y) * kSide;
+        const uint64_t z = v[2] - static_cast<uint64_t>(place.z) * kSide;
+        if (lane >= kLanes || y >= kSide || z >= kSide)
+            return;
+        if (!blocked)
+            blocked = std::make_unique<Blocked>();
+        uint16_t &lanes = blocked->lanes[y + kSide * z][number < 13 ? number : number + 1];
         lanes = static_cast<uint16_t>(lanes | 1u << lane);
     };
-    // A voxel on the edge of its brick is a lane of the x-neighbour too: two bricks that disagreed about an edge
-    // between them would wake each other for ever.
-    const auto block = [&](const std::array<uint64_t, 3> &v, unsigned number) {
-        const uint64_t bx = v[0] / kWidth, lane = v[0] % kWidth + 1;
-        block_lane(bx, v, lane, number);
-        if (lane == 1 && bx > 0)
-            block_lane(bx - 1, v, kLanes - 1, number);
-        if (lane == kWidth && bx + 1 < layout.bricks[0])
-            block_lane(bx + 1, v, 0, number);
+    // Voxels whose forward edges may end in the brick: one before it on every axis, with lane 0 two in x.
+    const auto before = [](int32_t brick, unsigned size, uint64_t margin) {
+        const uint64_t begin = static_cast<uint64_t>(brick) * size;
+        return begin - std::min(begin, margin);
     };
-    const uint64_t voxels = graph.grid().voxels();
-    for (uint64_t v = 0; v < voxels; ++v) {
-        if (cuts[v] == 0)
-            continue;
-        const auto place = graph.grid().place(v);
-        const uint32_t inside = graph.grid().inside(place);
-        for (unsigned bit = 0; bit < 13; ++bit) {
-            const graph::Neighbour &to = graph.grid().neighbour(graph::first_forward + bit);
-            if ((cuts[v] >> bit & 1) == 0 || (inside >> to.number & 1) == 0)
-                continue;
-            block(place, to.number);
-            block(graph.grid().place(v + static_cast<uint64_t>(to.step)), 25 - to.number);
-        }
-    }
+    const auto after = [](int32_t brick, unsigned size, uint64_t dim) {
+        return std::min<uint64_t>((static_cast<uint64_t>(brick) + 1) * size + 2, dim);
+    };
+    const uint64_t x_begin = before(place.x, kWidth, 2), x_end = after(place.x, kWidth, grid.nx());
+    for (uint64_t z = before(place.z, kSide, 1); z < after(place.z, kSide, grid.nz()); ++z)
+        for (uint64_t y = before(place.y, kSide, 1); y < after(place.y, kSide, grid.ny()); ++y)
+            for (uint64_t x = x_begin; x < x_end; ++x) {
+                const uint64_t v = grid.index(x, y, z);
+                if (cuts[v] == 0)
+                    continue;
+                const uint32_t inside = grid.inside({x, y, z});
+                for (unsigned bit = 0; bit < 13; ++bit) {
+                    const graph::Neighbour &to = grid.neighbour(graph::first_forward + bit);
+                    if ((cuts[v] >> bit & 1) == 0 || (inside >> to.number & 1) == 0)
+                        continue;
+                    block({x, y, z}, to.number);
+                    block(grid.place(v + static_cast<uint64_t>(to.step)), 25 - to.number);
+                }
+            }
     return blocked;
 }
 
@@ -145,7 +203,9 @@ template void import_operands(const graph::Graph &, const Place &, float, Brick<
 template void import_operands(const graph::Graph &, const Place &, float, Brick<uint64_t> &);
 template void fill_words(uint32_t, Brick<uint32_t> &);
 template void fill_words(uint64_t, Brick<uint64_t> &);
-template uint64_t export_words(const graph::Graph &, const Place &, const Brick<uint32_t> &, uint32_t, uint32_t *);
-template uint64_t export_words(const graph::Graph &, const Place &, const Brick<uint64_t> &, uint64_t, uint64_t *);
+template Exported export_words(const graph::Graph &, const Place &, const Brick<uint32_t> &, uint32_t, uint32_t *);
+template Exported export_words(const graph::Graph &, const Place &, const Brick<uint64_t> &, uint64_t, uint64_t *);
+template Exported export_changes(const graph::Graph &, const Place &, const Brick<uint32_t> &, uint32_t, uint32_t *);
+template Exported export_changes(const graph::Graph &, const Place &, const Brick<uint64_t> &, uint64_t, uint64_t *);
 
 } // namespace locus::bricks

@@ -4,6 +4,8 @@
 #include "core/simd.hpp"
 #include "graph/bricks/layout.hpp"
 
+#include <span>
+
 namespace locus::graph {
 class Graph;
 }
@@ -42,10 +44,21 @@ struct Blocked {
     uint16_t lanes[kRows][27] = {};
 };
 
+// A seed's voxel and word.
+template <typename Word>
+struct Anchor {
+    size_t brick;
+    unsigned row, lane;
+    Word word;
+};
+
 template <typename Word>
 struct Visit {
     const Metric<Word> *metric = nullptr;
-    const Blocked *blocked = nullptr; // null: no edge of the brick is cut
+    const Blocked *blocked = nullptr;      // null: no edge of the brick is cut
+    bool raise = false;                    // raise words that nothing supports any more, instead of lowering
+    Word unreached = 0;                    // raise: to this word
+    std::span<const Anchor<Word>> anchors; // raise: the seeds in the brick, which need no support
     Place place;
     std::array<Brick<Word> *, 9> around{}; // at dx = 0: [dy + 1 + 3 * (dz + 1)], the brick itself in the middle
     RowMask active = 0;                    // rows to look at
