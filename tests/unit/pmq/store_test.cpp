@@ -11,6 +11,7 @@ namespace locus::test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr uint32_t indexes[] = {LOCUS_INDEX_IMPLICIT, LOCUS_INDEX_EXPLICIT};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Item at(double latitude, double longitude, int64_t time) { return {latitude, longitude, time, 0, 0}; }
@@ -98,7 +99,7 @@ TEST(Insert, TimesAtTheEndsOfTheirRange) {
 
 // 229 airports: many records of one key, in the order of their arrival.
 TEST(Insert, EqualKeysWithoutLimit) {
-    for (const uint32_t index : {LOCUS_INDEX_IMPLICIT, LOCUS_INDEX_EXPLICIT}) {
+    for (const uint32_t index : indexes) {
         locus_pmq_options options = default_options();
         options.index = index;
         TrackedStore store(options, {});
@@ -125,7 +126,7 @@ TEST(Insert, EqualKeysWithoutLimit) {
 }
 
 TEST(Insert, BatchesThatDoubleAndErasuresThatHalveManyTimes) {
-    for (const uint32_t index : {LOCUS_INDEX_IMPLICIT, LOCUS_INDEX_EXPLICIT}) {
+    for (const uint32_t index : indexes) {
         locus_pmq_options options = default_options();
         options.index = index;
         TrackedStore store(options, {});
@@ -243,7 +244,7 @@ TEST(Limits, TheOldestGoFirstWhateverTheOrderOfArrival) {
 }
 
 TEST(Limits, MemoryStaysWithinTheBudget) {
-    for (const uint32_t index : {LOCUS_INDEX_IMPLICIT, LOCUS_INDEX_EXPLICIT}) {
+    for (const uint32_t index : indexes) {
         locus_pmq_options options = default_options();
         options.max_bytes = 200000;
         options.index = index;
