@@ -169,8 +169,9 @@ locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uin
         require(y < tiles, "y is ", y, ", zoom ", zoom, " has rows 0..", tiles - 1);
         require(log2_bins <= 8, "log2_bins is ", log2_bins, ", above 8");
         const Question question(query);
-        require(question.selection().region == nullptr, "query.region is ", query->region,
-                ", not LOCUS_REGION_ALL: a tile has its own region");
+        if (question.selection().region)
+            locus::fail(LOCUS_E_ARGUMENT, "query.region is ", query->region,
+                        ", not LOCUS_REGION_ALL: a tile has its own region");
         const size_t number = size_t{1} << (2 * log2_bins);
         if (capacity < number)
             locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", number, " bins");
