@@ -329,6 +329,13 @@ TEST(Results, PathsLeadToTheirSeedAtTheirLength) {
             length += weight;
         }
         EXPECT_EQ(length, steps[v]);
+        for (uint64_t lower = 0; count > 1 && lower < path[1]; ++lower) { // of equal ways on, the lowest index
+            uint64_t weight = 0;
+            if (cells[lower] != cells[v] || steps[lower] >= steps[v])
+                continue;
+            EXPECT_STATUS(locus_graph_edge_weight(g.get(), v, lower, &weight), LOCUS_OK);
+            EXPECT_FALSE(weight > 0 && steps[lower] + weight == steps[v]) << v << " by " << lower;
+        }
         if (count > 1) {
             EXPECT_FAILS(locus_diagram_path(d.get(), v % 12, v / 12 % 10, v / 120, path.data(), count - 1, &count),
                          LOCUS_E_CAPACITY, "capacity");
