@@ -8,17 +8,6 @@
 #endif
 
 namespace locus {
-namespace {
-
-#if !defined(LOCUS_SIMD_SCALAR_ONLY) && defined(__x86_64__)
-// clang 14 does not know this feature in __builtin_cpu_supports.
-bool has_f16c() noexcept {
-    unsigned a = 0, b = 0, c = 0, d = 0;
-    return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
-}
-#endif
-
-} // namespace
 
 #if !defined(LOCUS_SIMD_SCALAR_ONLY) && defined(__x86_64__)
 namespace {
