@@ -15,13 +15,14 @@ extern "C" {
 
 typedef struct locus_diagram locus_diagram;
 
-/* The label of a voxel that no seed reaches; never a seed's id. Its distance is +infinity, its exact distance UINT64_MAX. */
+/* The label of a voxel that no seed reaches; never a seed's id. Its distance is +infinity, its exact distance
+ * UINT64_MAX. */
 #define LOCUS_NO_SEED 0xFFFFFFFFu
 
-#define LOCUS_ENGINE_AUTO 0 /* LOCUS_ENGINE_BRICKS */
+#define LOCUS_ENGINE_AUTO 0   /* LOCUS_ENGINE_BRICKS */
 #define LOCUS_ENGINE_HEAP 1   /* Dijkstra with a binary heap: the oracle every other engine is tested against */
-#define LOCUS_ENGINE_BUCKET 2 /* Dijkstra with buckets (Dial 1969) as wide as the smallest edge weight, in levels of 64 */
-#define LOCUS_ENGINE_RELAX 3  /* the thesis' base algorithm, sections 2.4.1 to 2.4.3: relax all active voxels, iterate */
+#define LOCUS_ENGINE_BUCKET 2 /* Dijkstra with buckets (Dial 1969), each as wide as the smallest weight, 64 a level */
+#define LOCUS_ENGINE_RELAX 3  /* the thesis' base algorithm, sections 2.4.1 to 2.4.3: relax all active voxels */
 #define LOCUS_ENGINE_BRICKS 4 /* blocks of 14 x 8 x 8 voxels in SIMD registers, on several threads */
 
 /* A seed: a place with an id of the caller's that names it in every result. */
@@ -42,19 +43,19 @@ typedef struct locus_diagram_options {
 /* What the latest solve did. */
 typedef struct locus_diagram_stats {
     uint64_t struct_size;
-    uint64_t reached;         /* voxels with a label */
-    uint64_t seeds;           /* seeds in the diagram */
-    uint64_t relaxations;     /* edges looked at */
-    uint64_t iterations;      /* rounds (relax), buckets emptied (bucket), voxels settled (heap), visits of
-                                bricks (bricks) */
-    uint64_t max_exact;       /* the largest exact distance of a reached voxel, in steps */
-    double max_distance;      /* the same in units of distance */
-    double seconds_import;    /* wall time: bringing the graph into the engine's form, */
-    double seconds_solve;     /* solving, */
-    double seconds_export;    /* and bringing the result back */
-    uint64_t bytes;           /* memory held by the diagram */
-    uint32_t engine;          /* the engine that ran */
-    uint32_t threads;         /* threads it used */
+    uint64_t reached;      /* voxels with a label */
+    uint64_t seeds;        /* seeds in the diagram */
+    uint64_t relaxations;  /* edges looked at */
+    uint64_t iterations;   /* rounds (relax), buckets emptied (bucket), voxels settled (heap), visits of
+                             bricks (bricks) */
+    uint64_t max_exact;    /* the largest exact distance of a reached voxel, in steps */
+    double max_distance;   /* the same in units of distance */
+    double seconds_import; /* wall time: bringing the graph into the engine's form, */
+    double seconds_solve;  /* solving, */
+    double seconds_export; /* and bringing the result back */
+    uint64_t bytes;        /* memory held by the diagram */
+    uint32_t engine;       /* the engine that ran */
+    uint32_t threads;      /* threads it used */
 } locus_diagram_stats;
 
 /* Two cells that touch: some voxel of the one is a graph neighbour of some voxel of the other, with an edge between. */
@@ -68,11 +69,11 @@ typedef struct locus_cell_pair {
 
 typedef struct locus_place_options {
     uint64_t struct_size;
-    uint64_t count;            /* free seeds to add, >= 0; default 0: only move the free ones that are there */
-    uint32_t first_id;         /* ids of the added seeds: first_id, first_id + 1, ...; default 0 */
-    uint32_t lloyd_iterations; /* most rounds of Lloyd after the sampling; it ends earlier when no seed moves; default 100 */
-    uint32_t metric;           /* LOCUS_PLACE_; default LOCUS_PLACE_COMPLIANCE */
-    uint32_t reserved0;        /* 0 */
+    uint64_t count;             /* free seeds to add, >= 0; default 0: only move the free ones that are there */
+    uint32_t first_id;          /* ids of the added seeds: first_id, first_id + 1, ...; default 0 */
+    uint32_t lloyd_iterations;  /* most rounds of Lloyd after the sampling; fewer when no seed moves; default 100 */
+    uint32_t metric;            /* LOCUS_PLACE_; default LOCUS_PLACE_COMPLIANCE */
+    uint32_t reserved0;         /* 0 */
     locus_progress_fn progress; /* default NULL */
     void *progress_user;
 } locus_place_options;
@@ -82,10 +83,10 @@ typedef struct locus_place_options {
 LOCUS_API locus_status locus_diagram_options_init(locus_diagram_options *options, size_t size) LOCUS_NOEXCEPT;
 LOCUS_API locus_status locus_place_options_init(locus_place_options *options, size_t size) LOCUS_NOEXCEPT;
 
-/* Make a diagram of `graph`, without seeds, unsolved. It sees later edits of the graph when it is solved again, and keeps
- * what it needs of the graph alive. `options` may be NULL for the defaults. `*diagram` is the caller's, to be ended with
- * locus_diagram_destroy; NULL on any error. Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY.
- * Calls on diagrams of one graph may run beside each other, but not beside calls that change the graph. Since 0.1. */
+/* Make a diagram of `graph`, without seeds, unsolved. It sees later edits of the graph when it is solved again, and
+ * keeps what it needs of the graph alive. `options` may be NULL for the defaults. `*diagram` is the caller's, to be
+ * ended with locus_diagram_destroy; NULL on any error. Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY. Calls on diagrams of
+ * one graph may run beside each other, but not beside calls that change the graph. Since 0.1. */
 LOCUS_API locus_status locus_diagram_create(locus_graph *graph, const locus_diagram_options *options,
                                             locus_diagram **diagram) LOCUS_NOEXCEPT;
 
@@ -94,16 +95,18 @@ LOCUS_API void locus_diagram_destroy(locus_diagram *diagram) LOCUS_NOEXCEPT;
 
 /* Add `count` seeds. The diagram's last result stays as it is until the next solve.
  * Errors: LOCUS_E_ARGUMENT (a seed outside the grid, on an impassable voxel, with an id that is taken or a bad starting
- * distance: the text names it), LOCUS_E_RANGE (more seeds than the graph's label bits hold, or a starting distance beyond the
- * words), LOCUS_E_MEMORY; none of the seeds is added then. Two seeds may share a voxel. Since 0.1. */
+ * distance: the text names it), LOCUS_E_RANGE (more seeds than the graph's label bits hold, or a starting distance
+ * beyond the words), LOCUS_E_MEMORY; none of the seeds is added then. Two seeds may share a voxel. Since 0.1. */
 LOCUS_API locus_status locus_diagram_add_seeds(locus_diagram *diagram, const locus_seed *seeds,
                                                size_t count) LOCUS_NOEXCEPT;
 
-/* Remove the seeds with these ids. Errors: LOCUS_E_ARGUMENT (an id that is not there; nothing is removed). Since 0.1. */
+/* Remove the seeds with these ids. Errors: LOCUS_E_ARGUMENT (an id that is not there; nothing is removed). Since 0.1.
+ */
 LOCUS_API locus_status locus_diagram_remove_seeds(locus_diagram *diagram, const uint32_t *ids,
                                                   size_t count) LOCUS_NOEXCEPT;
 
-/* Move the seed with this id to the voxel (x, y, z); its place in the order of ties stays. Errors as for adding. Since 0.1. */
+/* Move the seed with this id to the voxel (x, y, z); its place in the order of ties stays. Errors as for adding. Since
+ * 0.1. */
 LOCUS_API locus_status locus_diagram_move_seed(locus_diagram *diagram, uint32_t id, uint64_t x, uint64_t y,
                                                uint64_t z) LOCUS_NOEXCEPT;
 
@@ -112,25 +115,27 @@ LOCUS_API locus_status locus_diagram_move_seed(locus_diagram *diagram, uint32_t 
 LOCUS_API locus_status locus_diagram_get_seeds(const locus_diagram *diagram, locus_seed *seeds, size_t capacity,
                                                size_t *count) LOCUS_NOEXCEPT;
 
-/* Add free seeds by farthest-point sampling (each next one on the voxel farthest from all seeds so far; unreached parts of the
- * object first, lowest voxel index on ties; with no seed yet, the first lies on the voxel farthest from the lowest passable
- * one), then move all free seeds to the centres of their cells (Lloyd: the centroid, then the closest voxel of the cell, lowest
- * index on ties) until none moves or the iterations are spent. `options` may not be NULL. Leaves the diagram unsolved.
- * Errors: LOCUS_E_ARGUMENT (more seeds than passable voxels, ids taken, a seed on a voxel that was made impassable), LOCUS_E_RANGE, LOCUS_E_STATE (no passable voxel),
- * LOCUS_E_MEMORY, LOCUS_E_STOPPED (by the progress callback); the seeds are as before then. Since 0.1. */
+/* Add free seeds by farthest-point sampling (each next one on the voxel farthest from all seeds so far; unreached parts
+ * of the object first, lowest voxel index on ties; with no seed yet, the first lies on the voxel farthest from the
+ * lowest passable one), then move all free seeds to the centres of their cells (Lloyd: the centroid, then the closest
+ * voxel of the cell, lowest index on ties) until none moves or the iterations are spent. `options` may not be NULL.
+ * Leaves the diagram unsolved. Errors: LOCUS_E_ARGUMENT (more seeds than passable voxels, ids taken, a seed on a voxel
+ * that was made impassable), LOCUS_E_RANGE, LOCUS_E_STATE (no passable voxel), LOCUS_E_MEMORY, LOCUS_E_STOPPED (by the
+ * progress callback); the seeds are as before then. Since 0.1. */
 LOCUS_API locus_status locus_diagram_place_seeds(locus_diagram *diagram,
                                                  const locus_place_options *options) LOCUS_NOEXCEPT;
 
 /* Compute the diagram anew. `progress` may be NULL.
- * Errors: LOCUS_E_STATE (no seeds), LOCUS_E_ARGUMENT (a seed lies on a voxel that was made impassable), LOCUS_E_RANGE (a
- * distance exceeds what the graph's words hold: the text says which scale or width would do), LOCUS_E_MEMORY, LOCUS_E_STOPPED.
- * After LOCUS_E_RANGE and LOCUS_E_STOPPED the diagram is unsolved, after the others it is as before. Since 0.1. */
+ * Errors: LOCUS_E_STATE (no seeds), LOCUS_E_ARGUMENT (a seed lies on a voxel that was made impassable), LOCUS_E_RANGE
+ * (a distance exceeds what the graph's words hold: the text says which scale or width would do), LOCUS_E_MEMORY,
+ * LOCUS_E_STOPPED. After LOCUS_E_RANGE and LOCUS_E_STOPPED the diagram is unsolved, after the others it is as before.
+ * Since 0.1. */
 LOCUS_API locus_status locus_diagram_solve(locus_diagram *diagram, locus_progress_fn progress,
                                            void *user) LOCUS_NOEXCEPT;
 
-/* Read the result for a box of voxels into dense memory, x fastest, with room for `capacity` elements: the nearest seed's
- * id; the distance as float; the exact distance in steps (divide by the graph's scale). `box` NULL means the whole grid.
- * Errors: LOCUS_E_STATE (unsolved), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
+/* Read the result for a box of voxels into dense memory, x fastest, with room for `capacity` elements: the nearest
+ * seed's id; the distance as float; the exact distance in steps (divide by the graph's scale). `box` NULL means the
+ * whole grid. Errors: LOCUS_E_STATE (unsolved), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_diagram_labels(const locus_diagram *diagram, const locus_voxel_box *box, uint32_t *labels,
                                             size_t capacity) LOCUS_NOEXCEPT;
 LOCUS_API locus_status locus_diagram_distances(const locus_diagram *diagram, const locus_voxel_box *box,
@@ -138,28 +143,30 @@ LOCUS_API locus_status locus_diagram_distances(const locus_diagram *diagram, con
 LOCUS_API locus_status locus_diagram_distances_exact(const locus_diagram *diagram, const locus_voxel_box *box,
                                                      uint64_t *distances, size_t capacity) LOCUS_NOEXCEPT;
 
-/* Copy the shortest path from voxel (x, y, z) to its seed, both ends included, as voxel indices into `voxels` with room for
- * `capacity`; of several shortest paths, at each voxel the neighbour with the lowest index. `*count` is the path's length, 0 for an unreached voxel.
- * Errors: LOCUS_E_STATE (unsolved, or the graph was edited since), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Since 0.1. */
+/* Copy the shortest path from voxel (x, y, z) to its seed, both ends included, as voxel indices into `voxels` with room
+ * for `capacity`; of several shortest paths, at each voxel the neighbour with the lowest index. `*count` is the path's
+ * length, 0 for an unreached voxel. Errors: LOCUS_E_STATE (unsolved, or the graph was edited since), LOCUS_E_ARGUMENT,
+ * LOCUS_E_CAPACITY. Since 0.1. */
 LOCUS_API locus_status locus_diagram_path(const locus_diagram *diagram, uint64_t x, uint64_t y, uint64_t z,
                                           uint64_t *voxels, size_t capacity, size_t *count) LOCUS_NOEXCEPT;
 
 /* Store the number of voxels of each seed's cell, in the order of locus_diagram_get_seeds. Errors: LOCUS_E_STATE
- * (unsolved, or the seeds were changed since), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY (`*count` says how many there are). Since 0.1. */
+ * (unsolved, or the seeds were changed since), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY (`*count` says how many there are).
+ * Since 0.1. */
 LOCUS_API locus_status locus_diagram_cell_sizes(const locus_diagram *diagram, uint64_t *sizes, size_t capacity,
                                                 size_t *count) LOCUS_NOEXCEPT;
 
-/* Store the pairs of cells that touch, sorted by (a, b) in the order of the seeds. Errors: LOCUS_E_STATE (unsolved, or the
- * graph was edited since), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY (`*count` says how many there are). Since 0.1. */
+/* Store the pairs of cells that touch, sorted by (a, b) in the order of the seeds. Errors: LOCUS_E_STATE (unsolved, or
+ * the graph was edited since), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY (`*count` says how many there are). Since 0.1. */
 LOCUS_API locus_status locus_diagram_cell_pairs(const locus_diagram *diagram, locus_cell_pair *pairs, size_t capacity,
                                                 size_t *count) LOCUS_NOEXCEPT;
 
-/* Store what the latest solve did; set stats->struct_size first. Errors: LOCUS_E_STATE (unsolved), LOCUS_E_ARGUMENT. Since 0.1. */
-LOCUS_API locus_status locus_diagram_get_stats(const locus_diagram *diagram,
-                                               locus_diagram_stats *stats) LOCUS_NOEXCEPT;
+/* Store what the latest solve did; set stats->struct_size first. Errors: LOCUS_E_STATE (unsolved), LOCUS_E_ARGUMENT.
+ * Since 0.1. */
+LOCUS_API locus_status locus_diagram_get_stats(const locus_diagram *diagram, locus_diagram_stats *stats) LOCUS_NOEXCEPT;
 
-/* Copy the active voxels of each iteration of the latest solve (thesis figure 2.10) into `active`, for a diagram made with
- * record_trace and an engine that works in iterations (relax, bucket). `*count` is the number of iterations.
+/* Copy the active voxels of each iteration of the latest solve (thesis figure 2.10) into `active`, for a diagram made
+ * with record_trace and an engine that works in iterations (relax, bucket). `*count` is the number of iterations.
  * Errors: LOCUS_E_STATE (unsolved, or no trace was recorded), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Since 0.1. */
 LOCUS_API locus_status locus_diagram_trace(const locus_diagram *diagram, uint64_t *active, size_t capacity,
                                            size_t *count) LOCUS_NOEXCEPT;

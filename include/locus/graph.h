@@ -1,10 +1,10 @@
 /* locus/graph.h - the voxel graph: a grid of voxels, each with a compliance or impassable.
  *
- * Two passable voxels that share a face (connectivity 6), a face or an edge (18), or a face, an edge or a corner (26) are
- * joined by an edge whose weight follows one rule from the voxels' compliances and the edge's length. Weights are kept
- * as integers (fixed point, `scale` steps per unit of distance), and a voxel's distance and label share one word of 32 or
- * 64 bits; so a Voronoi diagram is the same, bit for bit, from every engine, thread count and backend.
- * Method: thesis sections 2.2.4 and 2.4; Faure et al., Sparse Meshless Models of Complex Deformable Solids, 2011. */
+ * Two passable voxels that share a face (connectivity 6), a face or an edge (18), or a face, an edge or a corner (26)
+ * are joined by an edge whose weight follows one rule from the voxels' compliances and the edge's length. Weights are
+ * kept as integers (fixed point, `scale` steps per unit of distance), and a voxel's distance and label share one word
+ * of 32 or 64 bits; so a Voronoi diagram is the same, bit for bit, from every engine, thread count and backend. Method:
+ * thesis sections 2.2.4 and 2.4; Faure et al., Sparse Meshless Models of Complex Deformable Solids, 2011. */
 #ifndef LOCUS_GRAPH_H
 #define LOCUS_GRAPH_H
 
@@ -16,16 +16,17 @@ extern "C" {
 
 typedef struct locus_graph locus_graph;
 
-/* The weight of an edge of length len (Euclidean, by spacing) between the voxels u and v; c is the compliance, k = 1/c. */
+/* The weight of an edge of length len (Euclidean, by spacing) between the voxels u and v; c is the compliance, k = 1/c.
+ */
 #define LOCUS_WEIGHT_MEAN_COMPLIANCE 0 /* len * (c_u + c_v) / 2: the thesis, Faure et al. 2011; the default */
 #define LOCUS_WEIGHT_MAX_COMPLIANCE 1  /* len * max(c_u, c_v): SOFA's Dijkstra */
 #define LOCUS_WEIGHT_MEAN_STIFFNESS 2  /* len / ((k_u + k_v) / 2)^p: SOFA's first frame plugin */
 #define LOCUS_WEIGHT_UNIFORM 3         /* len */
 #define LOCUS_WEIGHT_CALLER 4          /* the caller's function; CPU only */
 
-/* What the numbers of the volume are. NaN, an infinite or negative compliance, and a NaN, negative or zero stiffness are
- * impassable (so is a stiffness too small to be a normal float); a compliance of 0 (an infinite stiffness) is the smallest
- * step, never a free one. */
+/* What the numbers of the volume are. NaN, an infinite or negative compliance, and a NaN, negative or zero stiffness
+ * are impassable (so is a stiffness too small to be a normal float); a compliance of 0 (an infinite stiffness) is the
+ * smallest step, never a free one. */
 #define LOCUS_MATERIAL_COMPLIANCE 0 /* distance per length: mm of distance per mm, 1/Pa, ... */
 #define LOCUS_MATERIAL_STIFFNESS 1  /* its inverse: Young's modulus in Pa, ... */
 
@@ -64,20 +65,20 @@ typedef struct locus_graph_options {
     double stiffness_exponent; /* p of LOCUS_WEIGHT_MEAN_STIFFNESS, in (0, 8]; default 1 */
     locus_weight_fn weight;    /* for LOCUS_WEIGHT_CALLER; default NULL */
     void *weight_user;
-    uint64_t max_seeds;        /* seeds a diagram must be able to hold, 1..2^24: decides the label bits; default 65,535
-                                  (256 with LOCUS_WORD_32 when left at the default) */
-    double scale;              /* steps per unit of distance, > 0; default 0: chosen from the data */
-    double precision;          /* when the scale is chosen: largest relative rounding error wanted in any edge weight,
-                                  in (0, 0.5]; default 1/256 */
-    double material_min;       /* the smallest and the largest passable value the graph must be able to take later, */
-    double material_max;       /* beside those of the data given now; default NaN: only those of the data. For
-                                  LOCUS_WEIGHT_CALLER: the range of the function's weight divided by the length; a
-                                  larger one met by a solve is LOCUS_E_RANGE */
-    uint32_t threads;          /* most threads a call may use; default 0: one per core */
-    uint32_t backend;          /* LOCUS_BACKEND_; default LOCUS_BACKEND_AUTO */
-    uint32_t simd;             /* LOCUS_SIMD_; default LOCUS_SIMD_AUTO */
-    uint32_t reserved0;        /* 0 */
-    locus_log_fn log;          /* default NULL: no log */
+    uint64_t max_seeds;  /* seeds a diagram must be able to hold, 1..2^24: decides the label bits; default 65,535
+                            (256 with LOCUS_WORD_32 when left at the default) */
+    double scale;        /* steps per unit of distance, > 0; default 0: chosen from the data */
+    double precision;    /* when the scale is chosen: largest relative rounding error wanted in any edge weight,
+                            in (0, 0.5]; default 1/256 */
+    double material_min; /* the smallest and the largest passable value the graph must be able to take later, */
+    double material_max; /* beside those of the data given now; default NaN: only those of the data. For
+                            LOCUS_WEIGHT_CALLER: the range of the function's weight divided by the length; a
+                            larger one met by a solve is LOCUS_E_RANGE */
+    uint32_t threads;    /* most threads a call may use; default 0: one per core */
+    uint32_t backend;    /* LOCUS_BACKEND_; default LOCUS_BACKEND_AUTO */
+    uint32_t simd;       /* LOCUS_SIMD_; default LOCUS_SIMD_AUTO */
+    uint32_t reserved0;  /* 0 */
+    locus_log_fn log;    /* default NULL: no log */
     void *log_user;
 } locus_graph_options;
 
@@ -86,22 +87,22 @@ typedef struct locus_graph_info {
     uint64_t struct_size;
     uint64_t dims[3];
     double spacing[3];
-    uint64_t passable;          /* passable voxels */
-    uint64_t bytes;             /* memory held by the graph */
+    uint64_t passable; /* passable voxels */
+    uint64_t bytes;    /* memory held by the graph */
     uint32_t connectivity;
     uint32_t weight_rule;
-    uint32_t word_bits;         /* 32 or 64 */
-    uint32_t label_bits;        /* of them for the label */
-    double scale;               /* steps per unit of distance: distance = exact distance / scale */
-    uint64_t max_exact;         /* the largest exact distance (in steps) that a word can hold */
-    double max_distance;        /* the same in units of distance */
-    double weight_error;        /* bound of the relative rounding error of an edge weight, over the range of materials */
-    double smallest_step;       /* the smallest edge weight, in units of distance */
-    uint32_t overflow_free;     /* 1: no shortest path of the graph as it is now can exceed max_exact (from seeds that start
-                                   at 0); 0: a solve may find that one does and return LOCUS_E_RANGE */
-    uint32_t threads;           /* threads a call may use */
-    uint32_t backend;           /* the backend chosen */
-    uint32_t simd;              /* the instruction set chosen */
+    uint32_t word_bits;     /* 32 or 64 */
+    uint32_t label_bits;    /* of them for the label */
+    double scale;           /* steps per unit of distance: distance = exact distance / scale */
+    uint64_t max_exact;     /* the largest exact distance (in steps) that a word can hold */
+    double max_distance;    /* the same in units of distance */
+    double weight_error;    /* bound of the relative rounding error of an edge weight, over the range of materials */
+    double smallest_step;   /* the smallest edge weight, in units of distance */
+    uint32_t overflow_free; /* 1: no shortest path of the graph as it is now can exceed max_exact (from seeds that start
+                               at 0); 0: a solve may find that one does and return LOCUS_E_RANGE */
+    uint32_t threads;       /* threads a call may use */
+    uint32_t backend;       /* the backend chosen */
+    uint32_t simd;          /* the instruction set chosen */
 } locus_graph_info;
 
 /* A box of voxels: origin (x, y, z) and extent in voxels; it must lie inside the grid. */
@@ -122,8 +123,9 @@ LOCUS_API locus_status locus_graph_options_init(locus_graph_options *options, si
  * largest material declared or, with none declared, at its own), else the smallest that meets the precision.
  * A chosen scale is a power of two where one fits.
  * `*graph` is the caller's, to be ended with locus_graph_destroy; NULL on any error.
- * Errors: LOCUS_E_ARGUMENT (an option out of its range), LOCUS_E_RANGE (the materials cannot be represented in the words
- * asked for), LOCUS_E_UNSUPPORTED (a forced backend or instruction set is not there), LOCUS_E_MEMORY. Any thread. Since 0.1. */
+ * Errors: LOCUS_E_ARGUMENT (an option out of its range), LOCUS_E_RANGE (the materials cannot be represented in the
+ * words asked for), LOCUS_E_UNSUPPORTED (a forced backend or instruction set is not there), LOCUS_E_MEMORY. Any thread.
+ * Since 0.1. */
 LOCUS_API locus_status locus_graph_create(const locus_graph_options *options, const float *material,
                                           locus_graph **graph) LOCUS_NOEXCEPT;
 
@@ -134,16 +136,16 @@ LOCUS_API void locus_graph_destroy(locus_graph *graph) LOCUS_NOEXCEPT;
  * Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_graph_get_info(const locus_graph *graph, locus_graph_info *info) LOCUS_NOEXCEPT;
 
-/* Replace the materials of a box. `values` holds extent[0]*extent[1]*extent[2] numbers of the graph's kind (compliance or
- * stiffness), x fastest, dense. Diagrams of the graph keep their last result until they are solved or updated again.
- * Errors: LOCUS_E_ARGUMENT (a box outside the grid), LOCUS_E_RANGE (a value so large that its weights do not fit the words, or so small
- * that their rounding error exceeds the precision and that of the materials so far; nothing is changed), LOCUS_E_MEMORY. Not beside any other call on the graph or its diagrams. Since 0.1. */
+/* Replace the materials of a box. `values` holds extent[0]*extent[1]*extent[2] numbers of the graph's kind (compliance
+ * or stiffness), x fastest, dense. Diagrams of the graph keep their last result until they are solved or updated again.
+ * Errors: LOCUS_E_ARGUMENT (a box outside the grid), LOCUS_E_RANGE (a value so large that its weights do not fit the
+ * words, or so small that their rounding error exceeds the precision and that of the materials so far; nothing is
+ * changed), LOCUS_E_MEMORY. Not beside any other call on the graph or its diagrams. Since 0.1. */
 LOCUS_API locus_status locus_graph_set_box(locus_graph *graph, const locus_voxel_box *box,
                                            const float *values) LOCUS_NOEXCEPT;
 
 /* The same with one value for the whole box: NaN removes the material (a cut), a number fills it. Since 0.1. */
-LOCUS_API locus_status locus_graph_fill_box(locus_graph *graph, const locus_voxel_box *box,
-                                            float value) LOCUS_NOEXCEPT;
+LOCUS_API locus_status locus_graph_fill_box(locus_graph *graph, const locus_voxel_box *box, float value) LOCUS_NOEXCEPT;
 
 /* Replace the materials of `count` voxels given by their indices x + nx * (y + ny * z); `values` holds as many numbers.
  * A voxel named twice takes the later value. Errors and threads as locus_graph_set_box; an index outside the grid is
@@ -151,8 +153,8 @@ LOCUS_API locus_status locus_graph_fill_box(locus_graph *graph, const locus_voxe
 LOCUS_API locus_status locus_graph_set_voxels(locus_graph *graph, const uint64_t *voxels, const float *values,
                                               size_t count) LOCUS_NOEXCEPT;
 
-/* Read the materials of a box (NULL: the whole grid) back into `values`, which has room for `capacity` numbers: the values given, NaN where
- * impassable. Errors: LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
+/* Read the materials of a box (NULL: the whole grid) back into `values`, which has room for `capacity` numbers: the
+ * values given, NaN where impassable. Errors: LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_graph_get_box(const locus_graph *graph, const locus_voxel_box *box, float *values,
                                            size_t capacity) LOCUS_NOEXCEPT;
 

@@ -7,12 +7,12 @@
  *
  * Rules that hold everywhere:
  * - Errors: see locus/status.h. No exception, abort, exit or print ever leaves the library.
- * - Handles are incomplete structs with one owner: `_create` makes one, `_destroy` ends it and takes NULL. A child, such
- *   as a diagram of a graph, keeps what it needs of its parent alive.
+ * - Handles are incomplete structs with one owner: `_create` makes one, `_destroy` ends it and takes NULL. A child,
+ * such as a diagram of a graph, keeps what it needs of its parent alive.
  * - Options are structs that begin with their size. Fill one with its `_options_init` function, change what you want,
  *   pass it. Options only grow at the end: a client built against an older header goes on working with a newer library.
- * - Threads: calls on different handles may run at once. On one handle, calls that take it as `const` may run beside each
- *   other, and no other call may run beside any; where a header promises more, it says so.
+ * - Threads: calls on different handles may run at once. On one handle, calls that take it as `const` may run beside
+ * each other, and no other call may run beside any; where a header promises more, it says so.
  * - Callbacks get the `user` pointer given with them, and are never called under a lock.
  * - Volumes are dense arrays, x fastest: the voxel (x, y, z) has the index x + nx * (y + ny * z).
  * - Latitudes and longitudes are degrees (WGS84), times are microseconds since 1970-01-01 UTC, lengths on the Earth are

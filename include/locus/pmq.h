@@ -42,7 +42,7 @@ typedef struct locus_text156 {
 #pragma pack(pop)
 
 /* How records lie in memory. Both layouts give the same answers. */
-#define LOCUS_LAYOUT_RING_LEAVES 0  /* small leaves along the Z-curve, each a ring in order of arrival: fast, no long pauses */
+#define LOCUS_LAYOUT_RING_LEAVES 0  /* leaves along the Z-curve, each a ring in order of arrival: no long pauses */
 #define LOCUS_LAYOUT_PACKED_ARRAY 1 /* the thesis' packed-memory array, sections 3.2 and 3.4 */
 
 /* How the packed array finds the records of a quadrant. */
@@ -82,8 +82,7 @@ typedef struct locus_pmq_options {
     uint32_t future; /* LOCUS_FUTURE_; default LOCUS_FUTURE_REFUSE */
     int64_t horizon; /* microseconds a record lives: gone once time < now - horizon; > 0; default LOCUS_NO_HORIZON */
     uint64_t max_records; /* most live records, >= 1: see below; default LOCUS_NO_LIMIT */
-    uint64_t
-        max_bytes; /* most memory for slots and index between calls, >= 64 KiB: see below; default LOCUS_NO_LIMIT */
+    uint64_t max_bytes; /* most memory of slots and index between calls, >= 64 KiB, see below; default LOCUS_NO_LIMIT */
     locus_remove_fn remove; /* default NULL */
     void *remove_user;
     locus_sink_fn sink; /* default NULL: evicted records are dropped */

@@ -60,9 +60,9 @@ LOCUS_API const char *locus_version_text(void) LOCUS_NOEXCEPT;
  * The text is static: never release it. Cannot fail. Any thread. Since 0.1. */
 LOCUS_API const char *locus_status_name(locus_status status) LOCUS_NOEXCEPT;
 
-/* What went wrong in the calling thread's latest failed call, naming the function, the argument and the offending value.
- * The text belongs to the thread: it stays valid until that thread's next failed call or its end, and a successful
- * call leaves it alone. "" when nothing has failed yet. Cannot fail. Any thread. Since 0.1. */
+/* What went wrong in the calling thread's latest failed call, naming the function, the argument and the offending
+ * value. The text belongs to the thread: it stays valid until that thread's next failed call or its end, and a
+ * successful call leaves it alone. "" when nothing has failed yet. Cannot fail. Any thread. Since 0.1. */
 LOCUS_API const char *locus_last_error(void) LOCUS_NOEXCEPT;
 
 /* Log levels. The library prints nothing; it tells a handle's log callback, when the options carry one. */

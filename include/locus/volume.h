@@ -42,33 +42,31 @@ typedef struct locus_volume locus_volume;
 /* What is known about a volume. Fill one with locus_volume_info_init before writing. */
 typedef struct locus_volume_info {
     uint64_t struct_size;
-    uint64_t
-        dims[3]; /* voxels in x, y, z, each >= 1, their product < 2^40; a plane has nz = 1; default 0: must be set */
+    uint64_t dims[3];    /* voxels in x, y, z, each >= 1, product < 2^40; a plane has nz = 1; default 0: must be set */
     uint64_t components; /* numbers per voxel, 1..2^24; default 1 */
     double spacing[3];   /* a voxel's edge lengths, finite and > 0; default 1 */
     double origin[3];    /* where the centre of voxel (0, 0, 0) lies, finite; default 0 */
     double direction[9]; /* unit vectors along the grid's x, y and z axes, three numbers each; default the identity */
-    double slope; /* value = slope * number + intercept; default 1. Reading to float applies both, and then they are */
-    double
-        intercept; /* 1 and 0 here; reading with LOCUS_READ_KEEP reports them. Default 0. Writing takes 1 and 0 only */
-    uint32_t type; /* LOCUS_VOXEL_ of the numbers in memory; default LOCUS_VOXEL_FLOAT32 */
+    /* value = slope * number + intercept; defaults 1 and 0. Reading to float applies both, and then they are 1 and 0
+     * here; reading with LOCUS_READ_KEEP reports them. Writing takes 1 and 0 only. */
+    double slope;
+    double intercept;
+    uint32_t type;       /* LOCUS_VOXEL_ of the numbers in memory; default LOCUS_VOXEL_FLOAT32 */
     uint32_t file_type;  /* LOCUS_VOXEL_ in the file; ignored by writing */
     uint32_t format;     /* LOCUS_VOLUME_ of the file; ignored by writing */
     uint32_t big_endian; /* 1: the file's numbers have their high byte first; ignored by writing */
 } locus_volume_info;
 
 /* What the numbers become in memory. */
-#define LOCUS_READ_FLOAT                                                                                               \
-    0 /* float, the file's slope and intercept applied; a double beyond float's range becomes infinite */
-#define LOCUS_READ_KEEP 1 /* the file's own type, unchanged */
+#define LOCUS_READ_FLOAT 0 /* float, slope and intercept applied; a double beyond its range becomes infinite */
+#define LOCUS_READ_KEEP 1  /* the file's own type, unchanged */
 
 typedef struct locus_volume_read_options {
     uint64_t struct_size;
-    uint64_t memory_limit; /* most bytes the numbers may take in memory, > 0; default 8 GiB */
-    uint32_t numbers;      /* LOCUS_READ_; default LOCUS_READ_FLOAT */
-    uint32_t format;       /* LOCUS_VOLUME_; default LOCUS_VOLUME_AUTO, which never takes a file for a raw one */
-    uint32_t
-        allow_trailing; /* 1: bytes after the numbers are fine; default 0: they are an error, the dims may be wrong */
+    uint64_t memory_limit;   /* most bytes the numbers may take in memory, > 0; default 8 GiB */
+    uint32_t numbers;        /* LOCUS_READ_; default LOCUS_READ_FLOAT */
+    uint32_t format;         /* LOCUS_VOLUME_; default LOCUS_VOLUME_AUTO, which never takes a file for a raw one */
+    uint32_t allow_trailing; /* 1: bytes after the numbers are fine; default 0: they are an error (wrong dims?) */
     /* For LOCUS_VOLUME_RAW alone. */
     uint32_t raw_big_endian;  /* 1: high byte first; default 0 */
     uint32_t raw_type;        /* LOCUS_VOXEL_; default 0: must be set */

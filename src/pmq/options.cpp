@@ -57,7 +57,8 @@ void check_packed_array(const locus_pmq_options &o) {
 void check_options(const locus_pmq_options &o) {
     require(o.record == LOCUS_RECORD_POINT32 || o.record == LOCUS_RECORD_TEXT156, "options.record is ", o.record,
             ", not a LOCUS_RECORD_");
-    require(o.layout == LOCUS_LAYOUT_RING_LEAVES || o.layout == LOCUS_LAYOUT_PACKED_ARRAY, "options.layout is ", o.layout, ", not a LOCUS_LAYOUT_");
+    require(o.layout == LOCUS_LAYOUT_RING_LEAVES || o.layout == LOCUS_LAYOUT_PACKED_ARRAY, "options.layout is ",
+            o.layout, ", not a LOCUS_LAYOUT_");
     require(o.future == LOCUS_FUTURE_REFUSE || o.future == LOCUS_FUTURE_CLAMP, "options.future is ", o.future,
             ", not a LOCUS_FUTURE_");
     require(o.horizon > 0, "options.horizon is ", o.horizon, ", not positive");
