@@ -16,9 +16,9 @@ void solve_case(Row &row, const Volume &volume, uint32_t threads, uint32_t words
                   {"heap", LOCUS_ENGINE_HEAP, 1, words},
                   {"dial", LOCUS_ENGINE_BUCKET, 1, words}});
     // The memory floor: 12 bytes a voxel at the speed at which this machine copies, in this very run.
-    const double floor_ms = 1e3 * 12 * static_cast<double>(volume.voxels()) / copy_bandwidth(threads);
-    row.extras["floor_ratio"] = row.ours.median / floor_ms;
-    row.extras["copy_gb_per_s"] = copy_bandwidth(threads) / 1e9;
+    const double bandwidth = copy_bandwidth(threads);
+    row.extras["floor_ratio"] = row.ours.median * bandwidth / (1e3 * 12 * static_cast<double>(volume.voxels()));
+    row.extras["copy_gb_per_s"] = bandwidth / 1e9;
 }
 
 /// The case with two threads, and its twin .t1 with one, for the record.

@@ -22,8 +22,9 @@ class Solver {
 public:
     Solver(const Volume &volume, const Engine &engine);
 
-    /// Solve once and note import_ms and export_ms. Milliseconds of the solving alone: thread-CPU time for one thread
-    /// (the call's, in the proportion of the engine's own wall times), wall time for several.
+    /// Solve, small volumes several times, and note import_ms and export_ms. Median milliseconds of the solving alone:
+    /// thread-CPU time for one thread (the call's, in the proportion of the engine's own wall times), wall time for
+    /// several.
     double solve(Notes &notes);
 
     locus_graph_info info() const;
