@@ -27,10 +27,10 @@ Volume make(std::array<uint64_t, 3> dims, Value value) {
     return out;
 }
 
-/// Corridors of 7x7 voxels between walls of one voxel: a random spanning tree of cells of 8^3 voxels, grown depth
+/// Corridors of 15x15 voxels between walls of one voxel: a random spanning tree of cells of 16^3 voxels, grown depth
 /// first.
 Volume maze(uint64_t side) {
-    constexpr uint64_t pitch = 8;
+    constexpr uint64_t pitch = 16;
     const uint64_t cells = side / pitch;
     Volume out = make({side, side, side}, [](uint64_t x, uint64_t y, uint64_t z) {
         return x % pitch == 0 || y % pitch == 0 || z % pitch == 0 ? wall : 1.0F;

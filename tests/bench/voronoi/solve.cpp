@@ -78,6 +78,12 @@ std::vector<float> Solver::distances() const {
     return out;
 }
 
+uint32_t Solver::edge_weight(uint64_t u, uint64_t v) const {
+    uint64_t steps = 0;
+    need(locus_graph_edge_weight(graph_.get(), u, v, &steps));
+    return static_cast<uint32_t>(steps);
+}
+
 const char *simd_name(uint32_t simd) {
     switch (simd) {
     case LOCUS_SIMD_SCALAR:
