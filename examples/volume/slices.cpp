@@ -7,15 +7,15 @@
 namespace volume {
 namespace {
 
-constexpr int left = 0, posterior = 1, superior = 2; // the world's axes
+constexpr size_t left = 0, posterior = 1, superior = 2; // the world's axes
 
 // The grid axis that runs most along each of the world's axes.
-std::array<int, 3> grid_axes(const locus_volume_info &info) {
-    std::array<int, 3> order{0, 1, 2}, best = order;
+std::array<size_t, 3> grid_axes(const locus_volume_info &info) {
+    std::array<size_t, 3> order{0, 1, 2}, best = order;
     double most = -1;
     do {
         double sum = 0;
-        for (int world = 0; world < 3; ++world)
+        for (size_t world = 0; world < 3; ++world)
             sum += std::abs(info.direction[3 * order[world] + world]);
         if (sum > most + 1e-9) {
             most = sum;
@@ -29,7 +29,7 @@ std::array<int, 3> grid_axes(const locus_volume_info &info) {
 
 Slicer::Slicer(const Options &options, const Input &input, const Result &result) : input_(input), result_(result) {
     const std::array<uint64_t, 3> centre = options.slice ? *options.slice : centre_of_material();
-    const std::array<int, 3> axes = grid_axes(input.info);
+    const std::array<size_t, 3> axes = grid_axes(input.info);
     const bool anatomy = options.anatomy;
     slices_ = {make("axial", left, posterior, false, axes, centre, anatomy),
                make("coronal", left, superior, true, axes, centre, anatomy),
@@ -52,13 +52,13 @@ std::array<uint64_t, 3> Slicer::centre_of_material() const {
                 ++count;
             }
     std::array<uint64_t, 3> centre{};
-    for (int axis = 0; axis < 3; ++axis)
+    for (size_t axis = 0; axis < 3; ++axis)
         centre[axis] = static_cast<uint64_t>(sum[axis] / static_cast<double>(std::max<uint64_t>(count, 1)));
     return centre;
 }
 
-Slice Slicer::make(const char *title, int across_world, int down_world, bool down_reversed,
-                   const std::array<int, 3> &grid_axis, const std::array<uint64_t, 3> &centre, bool anatomy) const {
+Slice Slicer::make(const char *title, size_t across_world, size_t down_world, bool down_reversed,
+                   const std::array<size_t, 3> &grid_axis, const std::array<uint64_t, 3> &centre, bool anatomy) const {
     static constexpr const char *towards[3] = {"L", "P", "S"};
     static constexpr const char *away[3] = {"R", "A", "I"};
     const locus_volume_info &info = input_.info;
@@ -87,7 +87,7 @@ Slice Slicer::make(const char *title, int across_world, int down_world, bool dow
 
 std::array<double, 3> Slicer::grid_at(const Slice &slice, double right, double down) const {
     const locus_volume_info &info = input_.info;
-    const auto along = [&](int axis, double length, bool flipped) {
+    const auto along = [&](size_t axis, double length, bool flipped) {
         const double index = length / info.spacing[axis] - 0.5;
         return flipped ? static_cast<double>(info.dims[axis]) - 1 - index : index;
     };
@@ -100,7 +100,7 @@ std::array<double, 3> Slicer::grid_at(const Slice &slice, double right, double d
 
 std::array<double, 2> Slicer::place_of(const Slice &slice, const std::array<uint64_t, 3> &voxel) const {
     const locus_volume_info &info = input_.info;
-    const auto along = [&](int axis, bool flipped) {
+    const auto along = [&](size_t axis, bool flipped) {
         const uint64_t index = flipped ? info.dims[axis] - 1 - voxel[axis] : voxel[axis];
         return (static_cast<double>(index) + 0.5) * info.spacing[axis];
     };
@@ -110,7 +110,7 @@ std::array<double, 2> Slicer::place_of(const Slice &slice, const std::array<uint
 size_t Slicer::nearest(const std::array<double, 3> &grid) const {
     const uint64_t *dims = input_.info.dims;
     uint64_t voxel[3];
-    for (int axis = 0; axis < 3; ++axis)
+    for (size_t axis = 0; axis < 3; ++axis)
         voxel[axis] =
             static_cast<uint64_t>(std::clamp(std::round(grid[axis]), 0.0, static_cast<double>(dims[axis] - 1)));
     return static_cast<size_t>(voxel[0] + dims[0] * (voxel[1] + dims[1] * voxel[2]));

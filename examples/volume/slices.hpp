@@ -12,7 +12,7 @@ namespace volume {
 struct Slice {
     std::string title;
     std::string left, right, top, bottom; // the sides' names
-    int across, down, through;            // grid axes
+    size_t across, down, through;         // grid axes
     bool across_flipped, down_flipped;    // the grid runs against the picture
     uint64_t at;                          // voxel index along `through`
     double width, height;                 // in units of length
@@ -37,8 +37,8 @@ public:
 
 private:
     std::array<uint64_t, 3> centre_of_material() const;
-    Slice make(const char *title, int across_world, int down_world, bool down_reversed,
-               const std::array<int, 3> &grid_axis, const std::array<uint64_t, 3> &centre, bool anatomy) const;
+    Slice make(const char *title, size_t across_world, size_t down_world, bool down_reversed,
+               const std::array<size_t, 3> &grid_axis, const std::array<uint64_t, 3> &centre, bool anatomy) const;
     template <typename Use>
     void around(const Slice &slice, const std::array<double, 3> &grid, Use use) const;
 

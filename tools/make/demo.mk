@@ -67,6 +67,8 @@ demo-steak: $(EXAMPLE_volume) ## Voronoi cells of ten seeds in a T-bone steak, w
 	else echo "demo-steak: skipped, there is no $(LOCUS_DATA)/steak (set LOCUS_DATA)"; fi
 demo: demo-volume
 
+$(OUT)/tests/unit_examples: $(filter-out %/main.cpp.o,$(OBJECTS_example_volume))
+
 # The program from end to end on a small volume, under Valgrind.
 MEMCHECK_RUNS += memcheck-volume
 .PHONY: memcheck-volume
