@@ -55,8 +55,8 @@ size_t ByteReader::inflate_into(std::span<std::byte> target) {
         offset_ += got;
         stream_.next_in = zbytes(input_.data());
         stream_.avail_in = chunk(got);
-        if (got == 0) { // the compressed stream breaks off
-            ended_ = true;
+        if (got == 0) {
+            ended_ = broken_off_ = true;
             return 0;
         }
     }

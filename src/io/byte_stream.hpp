@@ -23,6 +23,9 @@ public:
     // Pass over up to `count` bytes; returns how many there were.
     uint64_t skip(uint64_t count);
 
+    // The compressed stream ended before its end mark and checksum.
+    bool broken_off() const { return broken_off_; }
+
 private:
     size_t inflate_into(std::span<std::byte> target);
 
@@ -30,6 +33,7 @@ private:
     uint64_t offset_;
     bool deflated_;
     bool ended_ = false;
+    bool broken_off_ = false;
     z_stream stream_{};
     std::vector<std::byte> input_;
 };

@@ -115,10 +115,14 @@ void read_numbers(const VolumeSource &source, const InputFile &file, bool allow_
             truncated(first * width + got);
         store(source, buffer.data(), first, count, volume);
     }
+    if (allow_trailing || source.at_end)
+        return;
     std::byte beyond{};
-    if (!allow_trailing && !source.at_end && reader.read(std::span(&beyond, 1)) != 0)
+    if (reader.read(std::span(&beyond, 1)) != 0)
         fail(LOCUS_E_FORMAT, file.path(), ": the data are longer than the ", need,
              " bytes of the header's dims (allow_trailing would take it)");
+    if (reader.broken_off())
+        fail(LOCUS_E_FORMAT, file.path(), ": the compressed data break off before their checksum");
 }
 
 } // namespace

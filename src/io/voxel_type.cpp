@@ -53,6 +53,10 @@ void convert_to_float(const std::byte *source, uint32_t type, size_t stride, flo
 
 void copy_strided(const std::byte *source, size_t source_stride, std::byte *target, size_t target_stride, size_t count,
                   size_t width) {
+    if (source_stride == 1 && target_stride == 1) {
+        std::memcpy(target, source, count * width);
+        return;
+    }
     for (size_t i = 0; i < count; ++i)
         std::memcpy(target + i * target_stride * width, source + i * source_stride * width, width);
 }

@@ -104,6 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
         Lie{"v.mha", meta("CompressedData", "True", compressed("1234567", false)), format, "after 7 of 8 bytes"},
         Lie{"v.mha", meta("CompressedData", "True", compressed("123456789", false)), format, "longer than the 8 bytes"},
         Lie{"v.mha", meta("CompressedData", "True", compressed("12345678", false).substr(0, 9)), format, "of 8 bytes"},
+        Lie{"v.mha", meta("CompressedData", "True", compressed("12345678", false).substr(0, 14)), format,
+            "before their checksum"},
         Lie{"v.mha", meta("CompressedData", "True", ""), format, "the data end after 0 of 8 bytes"},
         Lie{"v.mha", meta("CompressedData = True\nCompressedDataSize", "99", compressed("12345678", false)), format,
             "are 99 bytes by the header"},
