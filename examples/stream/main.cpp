@@ -156,7 +156,8 @@ int run(const Options &options) {
     if (!events.empty())
         print_events(events);
     print_files(files);
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw std::runtime_error("cannot write the summary");
     if (!stopped.empty())
         std::fprintf(stderr, "stream: the stream stopped early: %s\n", stopped.c_str());
     if (!failed.empty())

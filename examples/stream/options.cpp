@@ -2,8 +2,9 @@
 #include "stream/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace demo {
 namespace {
@@ -15,11 +16,30 @@ constexpr const char *about =
     "  stream --csv taxis.csv.zst --zoom-km 40        a file; columns time, lat, lon\n"
     "  zcat log.gz | stream --json - --text message   standard input, one JSON object a line\n";
 
-using Names = std::map<std::string, uint32_t>;
+using Choices = std::vector<std::pair<std::string, uint32_t>>;
+
+// An option that takes one of some words; the first one is the default.
+void add_choice(CLI::App &app, const char *name, uint32_t &value, const Choices &choices, const char *text,
+                const char *group) {
+    std::vector<std::string> words;
+    for (const auto &[word, number] : choices)
+        words.push_back(word);
+    const auto choose = [&value, choices](const std::string &chosen) {
+        for (const auto &[word, number] : choices)
+            if (word == chosen)
+                value = number;
+    };
+    app.add_option_function<std::string>(name, choose, text)
+        ->check(CLI::IsMember(words))
+        ->type_name("")
+        ->default_str(words.front())
+        ->group(group);
+}
 
 void add_generator(CLI::App &app, Options &options) {
     const char *group = "Simulated stream";
     app.add_option("--posts", options.posts, "Posts, about; the bursts come on top")
+        ->default_str("2000000")
         ->check(CLI::Range(1.0, 1e10))
         ->group(group);
     app.add_option("--hours", options.hours, "Hours that the stream lasts")
@@ -51,24 +71,17 @@ void add_file(CLI::App &app, Options &options) {
     app.add_option("--lat", options.latitude, "Name of the latitude column [lat, latitude, y]")->group(group);
     app.add_option("--lon", options.longitude, "Name of the longitude column [lon, lng, longitude, x]")->group(group);
     app.add_option("--text", options.text, "Name of the text column [text, message, name, or none]")->group(group);
-    app.add_option("--time-unit", options.time_unit,
-                   "Unit of times that are numbers: auto, s, ms, us, ns; ISO 8601 needs none")
-        ->transform(CLI::CheckedTransformer(Names{{"auto", LOCUS_TIME_AUTO},
-                                                  {"s", LOCUS_TIME_SECONDS},
-                                                  {"ms", LOCUS_TIME_MILLISECONDS},
-                                                  {"us", LOCUS_TIME_MICROSECONDS},
-                                                  {"ns", LOCUS_TIME_NANOSECONDS}}))
-        ->type_name("UNIT")
-        ->default_str("auto")
-        ->group(group);
+    add_choice(app, "--time-unit", options.time_unit,
+               {{"auto", LOCUS_TIME_AUTO},
+                {"s", LOCUS_TIME_SECONDS},
+                {"ms", LOCUS_TIME_MILLISECONDS},
+                {"us", LOCUS_TIME_MICROSECONDS},
+                {"ns", LOCUS_TIME_NANOSECONDS}},
+               "Unit of times that are numbers; ISO 8601 needs none", group);
     app.add_option("--separator", options.separator, "Separator of CSV fields")->group(group);
-    app.add_option("--bad-lines", options.bad_lines,
-                   "Lines that cannot be used: count them and go on, or refuse the file")
-        ->transform(
-            CLI::CheckedTransformer(Names{{"count", LOCUS_BAD_LINES_COUNT}, {"refuse", LOCUS_BAD_LINES_REFUSE}}))
-        ->type_name("count|refuse")
-        ->default_str("count")
-        ->group(group);
+    add_choice(app, "--bad-lines", options.bad_lines,
+               {{"count", LOCUS_BAD_LINES_COUNT}, {"refuse", LOCUS_BAD_LINES_REFUSE}},
+               "Lines that cannot be used: count them and go on, or refuse the file", group);
     app.add_option("--max-line", options.max_line, "Bytes; a longer line is a bad one")
         ->check(CLI::Range(64, 1 << 30))
         ->group(group);
@@ -85,12 +98,8 @@ void add_window(CLI::App &app, Options &options) {
     app.add_option("--speed", options.speed, "Times real time; 0: as fast as it goes")
         ->check(CLI::NonNegativeNumber)
         ->group(group);
-    app.add_option("--index", options.index, "Index of the packed array: implicit or explicit")
-        ->transform(
-            CLI::CheckedTransformer(Names{{"implicit", LOCUS_INDEX_IMPLICIT}, {"explicit", LOCUS_INDEX_EXPLICIT}}))
-        ->type_name("INDEX")
-        ->default_str("implicit")
-        ->group(group);
+    add_choice(app, "--index", options.index, {{"implicit", LOCUS_INDEX_IMPLICIT}, {"explicit", LOCUS_INDEX_EXPLICIT}},
+               "Index of the packed array", group);
 }
 
 void add_results(CLI::App &app, Options &options) {
@@ -106,7 +115,9 @@ void add_results(CLI::App &app, Options &options) {
     app.add_option("--frames", options.frames, "Frames of the animation; 0: none")
         ->check(CLI::Range(0, 10'000))
         ->group(group);
-    app.add_flag("!--no-pictures", options.pictures, "Draw nothing")->group(group);
+    app.add_flag_callback(
+           "--no-pictures", [&options] { options.pictures = false; }, "Draw nothing")
+        ->group(group);
     app.add_option("--out", options.out, "Folder for the pictures")->type_name("FOLDER")->group(group);
     app.add_option("--data", options.data, "Folder of places.tsv and land.txt")->type_name("FOLDER")->group(group);
 }

@@ -39,6 +39,13 @@ Ring parse_ring(const std::string &line) {
         y += dy;
         ring.push_back({y / 100.0, x / 100.0});
     }
+    // A ring that begins beyond the antimeridian comes back to its lakes.
+    double sum = 0;
+    for (const Position &position : ring)
+        sum += position.longitude;
+    const double turn = 360 * std::round(sum / static_cast<double>(ring.size()) / 360);
+    for (Position &position : ring)
+        position.longitude -= turn;
     return ring;
 }
 

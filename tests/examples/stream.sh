@@ -96,6 +96,9 @@ grep -q 'cannot write .*frame-0001.png: File too large' "$folder/full2.txt" || {
 grep -q '^Insertion' "$folder/full.txt" || failed=1
 is -z "$(find "$folder/full" -type f)"
 
+"$stream" --posts 100 --no-pictures >/dev/full 2>"$folder/full3.txt" && { echo "FAIL: a full standard output"; failed=1; }
+grep -q 'cannot write the summary' "$folder/full3.txt" || failed=1
+
 # The command line.
 expect 0 help "$stream" --help
 says help '--bad-lines'
