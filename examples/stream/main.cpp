@@ -129,7 +129,7 @@ int run(const Options &options) {
         source = std::make_unique<FileSource>(options.input, reader_options(options));
     }
     const auto horizon = static_cast<int64_t>(options.window_hours * hour);
-    Window window(horizon, options.index);
+    Window window(horizon, options.layout);
     Pictures pictures(world, {options.out, options.zoom, options.zoom_km, horizon, events, options.pictures});
 
     std::string stopped; // why the stream ended early; what came before is shown all the same

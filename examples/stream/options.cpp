@@ -16,10 +16,12 @@ constexpr const char *about =
     "  stream --csv taxis.csv.zst --zoom-km 40        a file; columns time, lat, lon\n"
     "  zcat log.gz | stream --json - --text message   standard input, one JSON object a line\n";
 
-using Choices = std::vector<std::pair<std::string, uint32_t>>;
+template <typename Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
 
 // An option that takes one of some words; the first one is the default.
-void add_choice(CLI::App &app, const char *name, uint32_t &value, const Choices &choices, const char *text,
+template <typename Value>
+void add_choice(CLI::App &app, const char *name, Value &value, const Choices<Value> &choices, const char *text,
                 const char *group) {
     std::vector<std::string> words;
     for (const auto &[word, number] : choices)
@@ -71,17 +73,17 @@ void add_file(CLI::App &app, Options &options) {
     app.add_option("--lat", options.latitude, "Name of the latitude column [lat, latitude, y]")->group(group);
     app.add_option("--lon", options.longitude, "Name of the longitude column [lon, lng, longitude, x]")->group(group);
     app.add_option("--text", options.text, "Name of the text column [text, message, name, or none]")->group(group);
-    add_choice(app, "--time-unit", options.time_unit,
-               {{"auto", LOCUS_TIME_AUTO},
-                {"s", LOCUS_TIME_SECONDS},
-                {"ms", LOCUS_TIME_MILLISECONDS},
-                {"us", LOCUS_TIME_MICROSECONDS},
-                {"ns", LOCUS_TIME_NANOSECONDS}},
-               "Unit of times that are numbers; ISO 8601 needs none", group);
+    add_choice<uint32_t>(app, "--time-unit", options.time_unit,
+                         {{"auto", LOCUS_TIME_AUTO},
+                          {"s", LOCUS_TIME_SECONDS},
+                          {"ms", LOCUS_TIME_MILLISECONDS},
+                          {"us", LOCUS_TIME_MICROSECONDS},
+                          {"ns", LOCUS_TIME_NANOSECONDS}},
+                         "Unit of times that are numbers; ISO 8601 needs none", group);
     app.add_option("--separator", options.separator, "Separator of CSV fields")->group(group);
-    add_choice(app, "--bad-lines", options.bad_lines,
-               {{"count", LOCUS_BAD_LINES_COUNT}, {"refuse", LOCUS_BAD_LINES_REFUSE}},
-               "Lines that cannot be used: count them and go on, or refuse the file", group);
+    add_choice<uint32_t>(app, "--bad-lines", options.bad_lines,
+                         {{"count", LOCUS_BAD_LINES_COUNT}, {"refuse", LOCUS_BAD_LINES_REFUSE}},
+                         "Lines that cannot be used: count them and go on, or refuse the file", group);
     app.add_option("--max-line", options.max_line, "Bytes; a longer line is a bad one")
         ->check(CLI::Range(64, 1 << 30))
         ->group(group);
@@ -98,8 +100,13 @@ void add_window(CLI::App &app, Options &options) {
     app.add_option("--speed", options.speed, "Times real time; 0: as fast as it goes")
         ->check(CLI::NonNegativeNumber)
         ->group(group);
-    add_choice(app, "--index", options.index, {{"implicit", LOCUS_INDEX_IMPLICIT}, {"explicit", LOCUS_INDEX_EXPLICIT}},
-               "Index of the packed array", group);
+    add_choice<StoreLayout>(
+        app, "--layout", options.layout,
+        {{"default", StoreLayout::usual},
+         {"ring", StoreLayout::ring_leaves},
+         {"array", StoreLayout::packed_array},
+         {"array-explicit", StoreLayout::packed_array_explicit}},
+        "Layout of the store: ring leaves, the thesis' packed array, or that with its explicit index", group);
 }
 
 void add_results(CLI::App &app, Options &options) {

@@ -1,6 +1,8 @@
 // The command line.
 #pragma once
 
+#include "stream/window.hpp"
+
 #include <locus/records.h>
 
 #include <cstdint>
@@ -30,7 +32,7 @@ struct Options {
     double window_hours = 6;
     size_t batch = 1000;
     double speed = 0; // times real time; 0: as fast as it goes
-    uint32_t index = LOCUS_INDEX_IMPLICIT;
+    StoreLayout layout = StoreLayout::usual;
 
     // What is shown.
     std::string zoom = "auto";

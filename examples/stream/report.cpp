@@ -105,9 +105,9 @@ void print_summary(const Window &window, const Source &source, size_t batch, dou
                 with_commas(stats.evicted).c_str(), time_text(window.clock()).c_str());
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    std::printf("Memory     %s for the store (density %.2f, %s growths, %s shrinks), %s for the program at most\n",
-                bytes_text(stats.bytes).c_str(), stats.density, with_commas(stats.grows).c_str(),
-                with_commas(stats.shrinks).c_str(), bytes_text(static_cast<uint64_t>(usage.ru_maxrss) * 1024).c_str());
+    std::printf("Memory     %s for the store (density %.2f), %s for the program at most\n",
+                bytes_text(stats.bytes).c_str(), stats.density,
+                bytes_text(static_cast<uint64_t>(usage.ru_maxrss) * 1024).c_str());
 }
 
 void print_newest(const Window &window, const locus_box &box, size_t count) {

@@ -13,11 +13,16 @@ void check(locus_status status) {
         throw std::runtime_error(locus_last_error());
 }
 
-Window::Window(int64_t horizon, uint32_t index) : horizon_(horizon) {
+Window::Window(int64_t horizon, StoreLayout layout) : horizon_(horizon) {
     locus_pmq_options options;
     check(locus_pmq_options_init(&options, sizeof options));
     options.record = LOCUS_RECORD_TEXT156;
-    options.index = index;
+    if (layout == StoreLayout::ring_leaves)
+        options.layout = LOCUS_LAYOUT_RING_LEAVES;
+    if (layout == StoreLayout::packed_array || layout == StoreLayout::packed_array_explicit)
+        options.layout = LOCUS_LAYOUT_PACKED_ARRAY;
+    if (layout == StoreLayout::packed_array_explicit)
+        options.index = LOCUS_INDEX_EXPLICIT;
     options.future = LOCUS_FUTURE_CLAMP;
     options.horizon = horizon;
     locus_pmq *store = nullptr;

@@ -8,14 +8,15 @@
 
 namespace demo {
 
+enum class StoreLayout { usual, ring_leaves, packed_array, packed_array_explicit };
+
 struct Latencies {
     double mean = 0, middle = 0, p99 = 0, longest = 0; // seconds per batch
 };
 
 class Window {
 public:
-    // `horizon` in microseconds; `index` is a LOCUS_INDEX_.
-    Window(int64_t horizon, uint32_t index);
+    explicit Window(int64_t horizon, StoreLayout layout = StoreLayout::usual); // microseconds
 
     // Insert a batch at the clock that its times tell; see clock_of. Throws std::runtime_error.
     void insert(const std::vector<locus_text156> &batch);

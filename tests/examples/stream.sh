@@ -39,6 +39,11 @@ says one 'Planted bursts'
 is "$(wc -l <"$folder/one/events.csv")" = 13
 cmp "$folder/one/world.png" "$folder/two/world.png" || failed=1
 cmp "$folder/one/window.png" "$folder/two/window.png" || failed=1
+# The layouts differ in speed alone.
+for layout in ring array array-explicit; do
+    expect 0 $layout "$stream" --posts 3000 --frames 0 --zoom paris --layout $layout --out "$folder/$layout"
+    cmp "$folder/one/world.png" "$folder/$layout/world.png" || failed=1
+done
 
 # CSV with bad lines: counted and shown, or refused.
 {

@@ -46,7 +46,7 @@ std::vector<uint32_t> counted(const View &view, const std::vector<locus_text156>
 }
 
 TEST(HeatMap, CountsEveryRecordOnItsPixel) {
-    Window window(int64_t{1} << 40, LOCUS_INDEX_IMPLICIT);
+    Window window(int64_t{1} << 40);
     const auto posts = scattered(20'000);
     window.insert(posts);
     for (const View &view :
@@ -73,7 +73,7 @@ TEST(View, PixelsAndPositionsAgree) {
 
 TEST(Window, AFewTimesFarAheadDoNotEmptyIt) {
     constexpr int64_t hour = 3'600'000'000;
-    Window window(6 * hour, LOCUS_INDEX_IMPLICIT);
+    Window window(6 * hour);
     std::vector<locus_text156> batch;
     for (int64_t i = 0; i < 100; ++i)
         batch.push_back(post(1, 2, 1000 * hour + i));
