@@ -77,7 +77,7 @@ typedef int32_t (*locus_sink_fn)(const void *record, void *user);
 typedef struct locus_pmq_options {
     uint64_t struct_size;
     uint32_t record; /* LOCUS_RECORD_; default LOCUS_RECORD_POINT32 */
-    uint32_t layout; /* LOCUS_LAYOUT_; default LOCUS_LAYOUT_PACKED_ARRAY */
+    uint32_t layout; /* LOCUS_LAYOUT_; default LOCUS_LAYOUT_RING_LEAVES */
     uint32_t index;  /* LOCUS_INDEX_, packed array only; default LOCUS_INDEX_IMPLICIT */
     uint32_t future; /* LOCUS_FUTURE_; default LOCUS_FUTURE_REFUSE */
     int64_t horizon; /* microseconds a record lives: gone once time < now - horizon; > 0; default LOCUS_NO_HORIZON */
@@ -141,8 +141,8 @@ typedef struct locus_pmq_stats {
     uint64_t evicted;          /* and removed by predicate, horizon or limit, */
     uint64_t erased;           /* and removed by locus_pmq_erase */
     uint64_t batches;          /* batches inserted */
-    uint64_t moved;            /* records moved by rebalances and resizes */
-    uint64_t rebalances;       /* windows rebalanced */
+    uint64_t moved;            /* records moved within the layout */
+    uint64_t rebalances;       /* windows rebalanced, or leaves split and merged */
     uint64_t grows;            /* times the array doubled, */
     uint64_t shrinks;          /* and halved */
     uint64_t longest_pause_ns; /* the longest change (insert, sweep, erase) so far, without the sink; wall time */

@@ -13,7 +13,7 @@ locus_pmq_options default_options() noexcept {
     locus_pmq_options options{};
     options.struct_size = sizeof options;
     options.record = LOCUS_RECORD_POINT32;
-    options.layout = LOCUS_LAYOUT_PACKED_ARRAY;
+    options.layout = LOCUS_LAYOUT_RING_LEAVES;
     options.index = LOCUS_INDEX_IMPLICIT;
     options.future = LOCUS_FUTURE_REFUSE;
     options.horizon = LOCUS_NO_HORIZON;

@@ -100,7 +100,7 @@ bool Store::erase(const Selection &selection, uint64_t &erased) {
 
 void Store::log_growth(const LayoutStats &before) const {
     const LayoutStats after = layout_->stats();
-    if (!options_.log || after.slots == before.slots)
+    if (!options_.log || (after.grows == before.grows && after.shrinks == before.shrinks))
         return;
     char text[160];
     std::snprintf(text, sizeof text, "%s from %llu to %llu slots for %llu records",

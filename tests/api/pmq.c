@@ -40,7 +40,7 @@ static void defaults(void) {
     memset(&query, 0xA5, sizeof query);
     WORKS(locus_pmq_options_init(&options, sizeof options));
     CHECK(options.struct_size == sizeof options && options.record == LOCUS_RECORD_POINT32);
-    CHECK(options.layout == LOCUS_LAYOUT_PACKED_ARRAY && options.index == LOCUS_INDEX_IMPLICIT);
+    CHECK(options.layout == LOCUS_LAYOUT_RING_LEAVES && options.index == LOCUS_INDEX_IMPLICIT);
     CHECK(options.future == LOCUS_FUTURE_REFUSE && options.horizon == LOCUS_NO_HORIZON);
     CHECK(options.max_records == LOCUS_NO_LIMIT && options.max_bytes == LOCUS_NO_LIMIT);
     CHECK(options.remove == NULL && options.sink == NULL && options.log == NULL);

@@ -145,6 +145,8 @@ LayoutStats RingLeaves::stats() const {
     stats.stored = versions_.current()->stored;
     stats.slots = leaf_count_ * shape_.slots;
     stats.bytes = bytes();
+    stats.grows = slabs_.mapped();
+    stats.shrinks = slabs_.unmapped();
     return stats;
 }
 

@@ -57,6 +57,7 @@ Slabs::Slab &Slabs::add_slab() {
     slab->bytes = bytes;
     capacity_ += slab->leaves;
     bytes_ += bytes;
+    ++mapped_;
     const auto at = std::lower_bound(slabs_.begin(), slabs_.end(), slab->base,
                                      [](const auto &s, const std::byte *base) { return s->base < base; });
     return **slabs_.insert(at, std::move(slab));

@@ -33,6 +33,8 @@ public:
     size_t leaves() const noexcept { return used_; }
     size_t capacity() const noexcept { return capacity_; }
     uint64_t bytes() const noexcept { return bytes_; }
+    uint64_t mapped() const noexcept { return mapped_; } // slabs, ever
+    uint64_t unmapped() const noexcept { return mapped_ - slabs_.size(); }
 
 private:
     struct Slab {
@@ -60,7 +62,7 @@ private:
     Slab *current_ = nullptr;                  // the last one taken from
     Slab *vacating_ = nullptr;
     size_t used_ = 0, capacity_ = 0;
-    uint64_t bytes_ = 0;
+    uint64_t bytes_ = 0, mapped_ = 0;
 };
 
 } // namespace locus::pmq

@@ -62,6 +62,21 @@ private:
     int64_t now_ = INT64_MIN;
 };
 
+// The ways to hold the same records.
+struct LayoutChoice {
+    const char *name;
+    uint32_t layout, index;
+    void apply(locus_pmq_options &options) const {
+        options.layout = layout;
+        options.index = index;
+    }
+};
+inline constexpr LayoutChoice layouts[] = {
+    {"ring", LOCUS_LAYOUT_RING_LEAVES, LOCUS_INDEX_IMPLICIT},
+    {"implicit", LOCUS_LAYOUT_PACKED_ARRAY, LOCUS_INDEX_IMPLICIT},
+    {"explicit", LOCUS_LAYOUT_PACKED_ARRAY, LOCUS_INDEX_EXPLICIT},
+};
+
 inline locus_pmq_options default_options() {
     locus_pmq_options options;
     locus_pmq_options_init(&options, sizeof options);
