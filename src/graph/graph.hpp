@@ -53,7 +53,6 @@ public:
     const Weights &weights() const { return weights_; }
     // The values given, NaN for every impassable voxel.
     const float *materials() const { return materials_.data(); }
-    const locus_graph_options &options() const { return options_; }
     bool passable(uint64_t voxel) const { return materials_[voxel] == materials_[voxel]; }
     uint64_t passable_voxels() const { return passable_; }
     // No shortest path, from a start at distance 0, is longer than this many steps.

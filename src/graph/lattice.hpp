@@ -59,7 +59,6 @@ public:
     const std::vector<Hop> &hops() const { return hops_; }
     const R *operands() const { return operands_.data(); }
     std::vector<Word> &words() { return words_; }
-    size_t size() const { return words_.size(); }
 
     Place place(uint64_t voxel) const {
         const auto [x, y, z] = graph_.grid().place(voxel);
