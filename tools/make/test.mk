@@ -3,8 +3,8 @@ STAGE = @tools/stage.sh $(OUT)/log
 # In front of a stage's name where the flags are not the usual ones: clang++-address.
 FLAVOUR := $(addsuffix .,$(filter-out g++,$(subst -release,,$(OUT:build/%-$(FLAGS_ID)=%))))
 
-.PHONY: test unit api headers exports abi abi-baseline memcheck install-test
-test: unit api headers exports abi memcheck install-test ## the quick tests: units, C programs, headers, ABI, Valgrind, installation
+.PHONY: test unit api headers exports abi abi-baseline memcheck install-test readme
+test: unit api headers exports abi memcheck install-test readme ## the quick tests: units, C programs, headers, ABI, Valgrind, installation
 	@echo "make test: all passed"
 
 # Unit tests: one GoogleTest program per folder of tests/unit, linked with the static libraries. UNIT_LIBS_<area>: more it needs.
@@ -80,3 +80,7 @@ memcheck: $(MEMCHECK_API) $(MEMCHECK_UNIT) $(MEMCHECK_RUNS) ## Valgrind over the
 # Installation: an outside C and C++ program, by pkg-config and by CMake, shared and static; then uninstall leaves nothing.
 install-test: $(foreach name,$(LIBRARIES),$(SHARED_$(name)) $(STATIC_$(name))) | $(call needs,test) ## try make install and uninstall
 	+$(STAGE) $(FLAVOUR)$@ env MAKE='$(MAKE)' tests/install/run.sh
+
+# The program in README.md.
+readme: $(SHARED_locus) | $(call needs,test) ## compile and run the README's program
+	$(STAGE) $(FLAVOUR)$@ tests/install/readme.sh $(OUT)
