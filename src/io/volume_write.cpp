@@ -97,9 +97,9 @@ std::string nrrd_header(const locus_volume_info &info, const Target &target) {
                        "# http://teem.sourceforge.net/nrrd/format.html\n";
     line(text, "type: ", find_voxel_type(info.type)->nrrd);
     line(text, "dimension: ", several ? "4" : "3");
-    line(text, "space: left-posterior-superior");
     const std::string list_size = several ? std::to_string(info.components) + " " : "";
     line(text, "sizes: ", list_size, joined(std::span<const uint64_t>(info.dims), " "));
+    line(text, "space: left-posterior-superior"); // VTK forgets a fourth axis whose size comes later
     text += several ? "space directions: none" : "space directions:";
     for (int axis = 0; axis < 3; ++axis) {
         double step[3];
