@@ -36,7 +36,7 @@ Window::Window(int64_t horizon, StoreLayout layout) : horizon_(horizon) {
 int64_t Window::clock_of(const std::vector<locus_text156> &batch) {
     times_.clear();
     for (const locus_text156 &record : batch)
-        times_.push_back(record.time);
+        times_.push_back(int64_t{record.time}); // by value: it may lie at a multiple of 4 only
     std::sort(times_.begin(), times_.end());
     const auto median = static_cast<double>(times_[times_.size() / 2]);
     const auto quarter = static_cast<double>(times_[times_.size() / 4]);

@@ -15,10 +15,10 @@ TEST(Csv, PlainRows) {
     ASSERT_EQ(result.records.size(), 3u);
     EXPECT_EQ(result.records[0].latitude, 1.5f);
     EXPECT_EQ(result.records[0].longitude, -2.25f);
-    EXPECT_EQ(result.records[0].time, 100'000'000);
+    EXPECT_EQ(when(result.records[0]), 100'000'000);
     EXPECT_EQ(text_of(result.records[0]), "hello");
     EXPECT_EQ(text_of(result.records[1]), "");
-    EXPECT_EQ(result.records[2].time, 102'500'000);
+    EXPECT_EQ(when(result.records[2]), 102'500'000);
     EXPECT_EQ(text_of(result.records[2]), "last");
     EXPECT_EQ(result.stats.line, 4u);
     EXPECT_EQ(result.stats.records, 3u);
@@ -128,7 +128,7 @@ TEST(Csv, UsualNamesInTheirOrder) {
     ASSERT_EQ(result.records.size(), 1u);
     EXPECT_EQ(result.records[0].latitude, 2.0f);
     EXPECT_EQ(result.records[0].longitude, 4.0f);
-    EXPECT_EQ(result.records[0].time, 6'000'000);
+    EXPECT_EQ(when(result.records[0]), 6'000'000);
 }
 
 TEST(Csv, NoRecords) {

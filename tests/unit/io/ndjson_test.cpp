@@ -20,7 +20,7 @@ TEST(Json, ObjectsAndEscapes) {
     EXPECT_EQ(result.records[0].longitude, -3.5f);
     EXPECT_EQ(result.records[1].latitude, 10.0f);
     EXPECT_EQ(result.records[1].longitude, 4.5f);
-    EXPECT_EQ(result.records[1].time, 1211068800'000'000);
+    EXPECT_EQ(when(result.records[1]), 1211068800'000'000);
     EXPECT_EQ(result.records[2].latitude, 6.0f);
     EXPECT_EQ(text_of(result.records[2]), "");
 }
@@ -50,7 +50,7 @@ TEST(Json, BadLines) {
                                     "{\"time\":9,\"lat\":2,\"lon\":3}");
     EXPECT_EQ(result.status, LOCUS_OK);
     EXPECT_EQ(result.records.size(), 2u);
-    EXPECT_EQ(result.records.back().time, 9'000'000);
+    EXPECT_EQ(when(result.records.back()), 9'000'000);
     std::vector<uint64_t> lines;
     for (const auto &[line, reason] : result.bad)
         lines.push_back(line);

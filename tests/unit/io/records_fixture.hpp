@@ -26,6 +26,9 @@ inline std::string text_of(const locus_text156 &record) {
     return {record.text, std::find(record.text, record.text + sizeof record.text, '\0')};
 }
 
+// By value: the member may lie at a multiple of 4 only, where a reference must not point.
+inline int64_t when(const locus_text156 &record) { return record.time; }
+
 inline locus_records_options usual_options() {
     locus_records_options options;
     EXPECT_EQ(locus_records_options_init(&options, sizeof options), LOCUS_OK);
