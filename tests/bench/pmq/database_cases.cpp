@@ -68,9 +68,7 @@ void databases_case(Row &row) {
         {"sqlite_rtree", make_sqlite_rtree},
         {"postgis", make_postgis},
         {"redis_geo", make_redis_geo}};
-    if (array_is_peer()) {
-        entrants.push_back({"array", whole([] { return make_locus<Point>(Layout::array, LOCUS_NO_HORIZON); })});
-    }
+    entrants.push_back({"array", whole([] { return make_locus<Point>(Layout::array, LOCUS_NO_HORIZON); })});
     if (have_adaptive_sort()) {
         entrants.push_back({"vector_sort", whole([] { return make_vector(Sorting::adaptive, DenseIndex::implicit); })});
     }

@@ -6,12 +6,6 @@
 namespace bench {
 namespace {
 
-locus_pmq_options defaults() {
-    locus_pmq_options options;
-    need(locus_pmq_options_init(&options, sizeof options));
-    return options;
-}
-
 locus_pmq_query box_query(const locus_box &box) {
     locus_pmq_query query;
     need(locus_pmq_query_init(&query, sizeof query));
@@ -24,15 +18,12 @@ template <class Record>
 class LocusStore final : public TileStore<Record> {
 public:
     LocusStore(Layout layout, int64_t horizon) {
-        locus_pmq_options options = defaults();
+        locus_pmq_options options;
+        need(locus_pmq_options_init(&options, sizeof options));
         options.record = record_kind<Record>;
         options.horizon = horizon;
-        if (layout != Layout::ours) {
-            options.layout = LOCUS_LAYOUT_PACKED_ARRAY;
-        }
-        if (layout == Layout::array_explicit) {
-            options.index = LOCUS_INDEX_EXPLICIT;
-        }
+        options.layout = layout == Layout::ours ? LOCUS_LAYOUT_RING_LEAVES : LOCUS_LAYOUT_PACKED_ARRAY;
+        options.index = layout == Layout::array_explicit ? LOCUS_INDEX_EXPLICIT : LOCUS_INDEX_IMPLICIT;
         pmq_ = make_pmq(options);
     }
 
@@ -81,7 +72,5 @@ std::unique_ptr<TileStore<Record>> make_locus(Layout layout, int64_t horizon) {
 }
 template std::unique_ptr<TileStore<locus_point32>> make_locus(Layout, int64_t);
 template std::unique_ptr<TileStore<locus_text156>> make_locus(Layout, int64_t);
-
-bool array_is_peer() { return defaults().layout != LOCUS_LAYOUT_PACKED_ARRAY; }
 
 } // namespace bench

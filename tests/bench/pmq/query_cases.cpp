@@ -36,9 +36,7 @@ std::vector<Filled> fill(const Window &window) {
         stores.push_back({peer, std::move(store)});
     };
     add("", make_locus<locus_point32>(Layout::ours, window.horizon));
-    if (array_is_peer()) {
-        add("array", make_locus<locus_point32>(Layout::array, window.horizon));
-    }
+    add("array", make_locus<locus_point32>(Layout::array, window.horizon));
     if (have_btree()) {
         add("btree", make_btree<locus_point32>(window.horizon));
     }

@@ -60,9 +60,6 @@ bool have_btree();
 bool have_rtree();
 bool have_adaptive_sort();
 
-/// Whether the store's default layout is another one than the thesis' packed array, which is a peer then.
-bool array_is_peer();
-
 inline bool inside(const locus_box &box, double latitude, double longitude) {
     return latitude >= box.south && latitude <= box.north && longitude >= box.west && longitude <= box.east;
 }
@@ -73,14 +70,12 @@ struct Competitor {
     std::function<std::unique_ptr<Store<Record>>(int64_t horizon)> make;
 };
 
-/// Ours, then the array where it is not ours, then the trees this build has.
+/// Ours, the thesis' array, and the trees this build has.
 template <class Record>
 std::vector<Competitor<Record>> competitors(bool with_rtree) {
     std::vector<Competitor<Record>> out{
         {"", [](int64_t horizon) { return make_locus<Record>(Layout::ours, horizon); }}};
-    if (array_is_peer()) {
-        out.push_back({"array", [](int64_t horizon) { return make_locus<Record>(Layout::array, horizon); }});
-    }
+    out.push_back({"array", [](int64_t horizon) { return make_locus<Record>(Layout::array, horizon); }});
     if (have_btree()) {
         out.push_back({"btree", [](int64_t horizon) { return make_btree<Record>(horizon); }});
     }

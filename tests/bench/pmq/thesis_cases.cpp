@@ -50,9 +50,7 @@ void add_dense(std::vector<Entrant> &entrants, DenseIndex index) {
 
 void implicit_case(Row &row) {
     std::vector<Entrant> entrants{{"", [] { return make_locus<Point>(Layout::ours, LOCUS_NO_HORIZON); }}};
-    if (array_is_peer()) {
-        entrants.push_back({"array", [] { return make_locus<Point>(Layout::array, LOCUS_NO_HORIZON); }});
-    }
+    entrants.push_back({"array", [] { return make_locus<Point>(Layout::array, LOCUS_NO_HORIZON); }});
     add_dense(entrants, DenseIndex::implicit);
     race_inserts(row, entrants);
     // Table 3.1, Intel i7-4790, milliseconds a batch.
