@@ -63,7 +63,7 @@ Batch Store::checked(Bytes records, size_t count, int64_t now) {
 template <typename Change>
 uint64_t Store::change(Change &&change) {
     const auto start = std::chrono::steady_clock::now();
-    const LayoutStats before = layout_->stats();
+    const LayoutStats before = options_.log ? layout_->stats() : LayoutStats{};
     const uint64_t left = departures_.left();
     change();
     const auto pause = std::chrono::steady_clock::now() - start;

@@ -50,8 +50,7 @@ public:
         if (!span.divided(quadrant.level))
             return;
         divide(node);
-        const auto spans =
-            children(quadrant, span, [&](unsigned number) { return border(number, quadrant, span, span); });
+        const auto spans = children(quadrant, fresh_borders(quadrant, span), nullptr);
         for (unsigned child = 0; child < 4; ++child)
             if (!spans[child].empty())
                 build((*node.children)[child], quadrant.child(child), spans[child]);
@@ -66,9 +65,8 @@ public:
             build(node, quadrant, span);
             return;
         }
+        const auto spans = children(quadrant, renewed_borders(node, quadrant, span, dirty), node.children.get());
         set(node, span);
-        const auto spans = children(
-            quadrant, span, [&](unsigned number) { return renewed_border(node, number, quadrant, span, dirty); });
         for (unsigned number = 0; number < 4; ++number) {
             Node &child = (*node.children)[number];
             if (spans[number].empty())
@@ -103,8 +101,7 @@ public:
              (node.children != nullptr) == span.divided(quadrant.level));
         if (!node.children)
             return;
-        const auto spans =
-            children(quadrant, span, [&](unsigned number) { return border(number, quadrant, span, span); });
+        const auto spans = children(quadrant, fresh_borders(quadrant, span), nullptr);
         for (unsigned child = 0; child < 4; ++child)
             check((*node.children)[child], quadrant.child(child), spans[child]);
     }
@@ -120,16 +117,37 @@ private:
         nodes_ += 4;
     }
 
-    // From the three borders between the children to their spans.
-    template <typename BorderOf>
-    std::array<Span, 4> children(const Quadrant &quadrant, const Span &span, BorderOf &&border_of) const {
-        std::array<Border, 5> borders;
-        borders.front() = {none, span.first};
-        borders.back() = {span.last, none};
-        for (unsigned number = 1; number < 4; ++number)
-            borders[number] = border_of(number);
+    // The borders around and between the children.
+    Borders fresh_borders(const Quadrant &quadrant, const Span &span) const {
+        return {Border{none, span.first, false}, border(1, quadrant, span, span), border(2, quadrant, span, span),
+                border(3, quadrant, span, span), Border{span.last, none, false}};
+    }
+
+    // A border is where it was if no segment of its neighbours, nor any between them, was rewritten. One without a
+    // neighbour on one side is where the records of the quadrant begin or end.
+    Borders renewed_borders(const Node &node, const Quadrant &quadrant, const Span &span,
+                            std::span<const Dirty> dirty) const {
+        const bool same_first = node.first == span.first && touching(dirty, span.first, span.first).empty();
+        const bool same_last = node.last == span.last && touching(dirty, span.last, span.last).empty();
+        Borders borders{Border{none, span.first, same_first}, {}, {}, {}, Border{span.last, none, same_last}};
+        for (unsigned number = 1; number < 4; ++number) {
+            const Border old = old_border(node, number);
+            const bool same = old.before == none  ? same_first
+                              : old.after == none ? same_last
+                                                  : touching(dirty, old.before, old.after).empty();
+            borders[number] = same ? old : border(number, quadrant, span, hull_of(old, span, dirty));
+        }
+        return borders;
+    }
+
+    // From the borders to the children's spans. A child between two borders that are where they were has kept its own.
+    std::array<Span, 4> children(const Quadrant &quadrant, const Borders &borders, const Children *old) const {
         std::array<Span, 4> spans;
         for (unsigned number = 0; number < 4; ++number) {
+            if (borders[number].same && borders[number + 1].same) {
+                spans[number] = {(*old)[number].first, (*old)[number].last};
+                continue;
+            }
             const size_t first = borders[number].after, last = borders[number + 1].before;
             if (first == none || last == none || first > last)
                 continue;
@@ -146,7 +164,7 @@ private:
         const uint64_t key = quadrant.child(number).keys().lo;
         const size_t segment = segments_.locate(key, hull.first, hull.last);
         const size_t smaller = segments_.below(segment, key);
-        Border border{segment, segment};
+        Border border{segment, segment, false};
         if (smaller == 0) {
             border.before = none;
             for (size_t s = segment; s > span.first && border.before == none;)
@@ -162,23 +180,24 @@ private:
         return border;
     }
 
-    // A border whose neighbours lie in no rewritten window, nor does anything between them, is where it was. Another
-    // one can have moved within the windows of its neighbours only: records never pass a window that was not rewritten.
-    Border renewed_border(const Node &node, unsigned number, const Quadrant &quadrant, const Span &span,
-                          std::span<const Dirty> dirty) const {
-        Border old{none, none};
-        for (unsigned child = 0; child < 4; ++child) {
-            const Node &node_of_child = (*node.children)[child];
-            if (node_of_child.empty())
+    // Where the border below child `number` was.
+    static Border old_border(const Node &node, unsigned number) {
+        Border old{none, none, true};
+        for (unsigned i = 0; i < 4; ++i) {
+            const Node &child = (*node.children)[i];
+            if (child.empty())
                 continue;
-            if (child < number)
-                old.before = node_of_child.last;
-            if (child >= number && old.after == none)
-                old.after = node_of_child.first;
+            if (i < number)
+                old.before = child.last;
+            else if (old.after == none)
+                old.after = child.first;
         }
+        return old;
+    }
+
+    // The segments within which a border has moved: records never pass a window that was not rewritten.
+    static Span hull_of(const Border &old, const Span &span, std::span<const Dirty> dirty) {
         Span hull = span;
-        if (old.before != none && old.after != none && touching(dirty, old.before, old.after).empty())
-            return old;
         if (old.before != none) {
             const auto window = touching(dirty, old.before, old.before);
             hull.first = std::clamp(window.empty() ? old.before : window.front().first, span.first, span.last);
@@ -187,7 +206,7 @@ private:
             const auto window = touching(dirty, old.after, old.after);
             hull.last = std::clamp(window.empty() ? old.after : window.front().last, hull.first, span.last);
         }
-        return border(number, quadrant, span, hull);
+        return hull;
     }
 
     const Segments &segments_;

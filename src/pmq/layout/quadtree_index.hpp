@@ -48,7 +48,9 @@ private:
     struct Border {
         size_t before; // the segment of the last record with a smaller key, or none
         size_t after;  // the segment of the first record with another key, or none
+        bool same;     // known to be where it was before the repair
     };
+    using Borders = std::array<Border, 5>;
     class Builder;
 
     bool wanted_;
