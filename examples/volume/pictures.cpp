@@ -217,7 +217,7 @@ Sheet draw_sheet(const std::string &title, const std::string &subtitle, const Op
 
 std::string contour_text(const Look &look, const Options &options) {
     return "lines of equal distance every " + short_number(look.step) + (options.anatomy ? " mm" : "") +
-           " of the softest material";
+           ", as lengths of the softest material";
 }
 
 } // namespace

@@ -122,9 +122,11 @@ LOCUS_API const void *locus_volume_data(const locus_volume *volume) LOCUS_NOEXCE
  * Data are written under a temporary name in the same folder, flushed to the disk and renamed, so that a reader sees
  * the old file or the new one, never a part. An .mhd or .nhdr is written after its data, which go into a file of the
  * same name ending in .raw, .zraw (MetaImage, compressed) or .raw.gz (NRRD, compressed). 3-D Slicer and ParaView open
- * both formats. Errors: LOCUS_E_ARGUMENT (a field of the info or options out of its range, an ending that names no
- * format), LOCUS_E_IO (a full disk, a folder that is not there, ...: no file is left behind, an older one stays),
+ * both formats, but ParaView (VTK 9.1) misreads an NRRD list of components that is compressed.
+ * Errors: LOCUS_E_ARGUMENT (a field of the info or options out of its range, an ending that names no format),
+ * LOCUS_E_IO (a full disk, a folder that is not there, ...: no file is left behind, an older one stays),
  * LOCUS_E_MEMORY. Any thread. Since 0.1. */
+ */
 LOCUS_API locus_status locus_volume_write(const char *path, const locus_volume_info *info, const void *data,
                                           const locus_volume_write_options *options) LOCUS_NOEXCEPT;
 
