@@ -126,7 +126,6 @@ LOCUS_API const void *locus_volume_data(const locus_volume *volume) LOCUS_NOEXCE
  * Errors: LOCUS_E_ARGUMENT (a field of the info or options out of its range, an ending that names no format),
  * LOCUS_E_IO (a full disk, a folder that is not there, ...: no file is left behind, an older one stays),
  * LOCUS_E_MEMORY. Any thread. Since 0.1. */
- */
 LOCUS_API locus_status locus_volume_write(const char *path, const locus_volume_info *info, const void *data,
                                           const locus_volume_write_options *options) LOCUS_NOEXCEPT;
 
