@@ -133,6 +133,15 @@ LOCUS_API locus_status locus_diagram_place_seeds(locus_diagram *diagram,
 LOCUS_API locus_status locus_diagram_solve(locus_diagram *diagram, locus_progress_fn progress,
                                            void *user) LOCUS_NOEXCEPT;
 
+/* Bring the diagram up to date with all that was changed since its latest solve or update: materials, cuts and seeds.
+ * The result equals a fresh solve bit for bit. LOCUS_ENGINE_BRICKS looks only at what changes, from the edits outward;
+ * the other engines solve anew and compare. Works on an unsolved diagram too, as a solve.
+ * `*box` becomes the smallest box around the voxels whose label or distance changed, with extents 0 where there are
+ * none, and `*voxels` their number; both may be NULL. `progress` may be NULL.
+ * Errors and the state they leave as for locus_diagram_solve. Since 0.1. */
+LOCUS_API locus_status locus_diagram_update(locus_diagram *diagram, locus_voxel_box *box, uint64_t *voxels,
+                                            locus_progress_fn progress, void *user) LOCUS_NOEXCEPT;
+
 /* Read the result for a box of voxels into dense memory, x fastest, with room for `capacity` elements: the nearest
  * seed's id; the distance as float; the exact distance in steps (divide by the graph's scale). `box` NULL means the
  * whole grid. Errors: LOCUS_E_STATE (unsolved), LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */

@@ -164,6 +164,34 @@ LOCUS_API locus_status locus_graph_get_box(const locus_graph *graph, const locus
 LOCUS_API locus_status locus_graph_edge_weight(const locus_graph *graph, uint64_t u, uint64_t v,
                                                uint64_t *steps) LOCUS_NOEXCEPT;
 
+/* Cut along a surface: disable every edge between two voxels that the surface separates. The voxels stay, and so do
+ * their materials; weights and distances no longer pass there. Positions are in units of the spacing: the centre of
+ * voxel (x, y, z) lies at (x * spacing[0], y * spacing[1], z * spacing[2]). A centre exactly on the surface counts as
+ * lying on the side of the normal, for a triangle the normal whose first non-zero component is positive. Cuts add up,
+ * and stay when materials change. Diagrams of the graph keep their last result until they are solved or updated again.
+ * `edges`, which may be NULL, receives how many edges were whole before. The first cut takes 2 bytes for each voxel of
+ * the grid.
+ *
+ * A plane through `point` with the normal `normal` (any length above 0), for the edges with both ends in `box` (NULL:
+ * the whole grid). Errors: LOCUS_E_ARGUMENT (a number that is not finite, a normal of length 0, a box outside the
+ * grid), LOCUS_E_MEMORY; the graph is unchanged then. Not beside any other call on the graph or its diagrams. Since
+ * 0.1. */
+LOCUS_API locus_status locus_graph_cut_plane(locus_graph *graph, const double point[3], const double normal[3],
+                                             const locus_voxel_box *box, uint64_t *edges) LOCUS_NOEXCEPT;
+
+/* The same along a mesh of `triangle_count` triangles, each three indices into the `vertex_count` vertices of three
+ * coordinates each. Triangles without area are left out; parts outside the grid do nothing. A mesh without gaps cuts
+ * without gaps. Errors (an index beyond the vertices, a coordinate that is not finite) and threads as above. Since 0.1.
+ */
+LOCUS_API locus_status locus_graph_cut_mesh(locus_graph *graph, const double *vertices, size_t vertex_count,
+                                            const uint32_t *triangles, size_t triangle_count,
+                                            uint64_t *edges) LOCUS_NOEXCEPT;
+
+/* Undo the cuts of all edges with at least one end in `box` (NULL: the whole grid); `edges`, which may be NULL,
+ * receives how many they were. Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY. Threads as above. Since 0.1. */
+LOCUS_API locus_status locus_graph_mend_box(locus_graph *graph, const locus_voxel_box *box,
+                                            uint64_t *edges) LOCUS_NOEXCEPT;
+
 #ifdef __cplusplus
 }
 #endif

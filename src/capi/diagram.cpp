@@ -114,6 +114,18 @@ locus_status locus_diagram_solve(locus_diagram *diagram, locus_progress_fn progr
     });
 }
 
+locus_status locus_diagram_update(locus_diagram *diagram, locus_voxel_box *box, uint64_t *voxels,
+                                  locus_progress_fn progress, void *user) noexcept {
+    return boundary(__func__, [&] {
+        Progress told(progress, user);
+        const graph::Change change = of(diagram).update(told);
+        if (box != nullptr)
+            *box = change.box;
+        if (voxels != nullptr)
+            *voxels = change.voxels;
+    });
+}
+
 locus_status locus_diagram_labels(const locus_diagram *diagram, const locus_voxel_box *box, uint32_t *labels,
                                   size_t capacity) noexcept {
     return boundary(__func__, [&] {

@@ -2,6 +2,7 @@
 #include "capi/boundary.hpp"
 #include "capi/handles.hpp"
 #include "core/options.hpp"
+#include "graph/cuts.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -92,5 +93,42 @@ locus_status locus_graph_edge_weight(const locus_graph *graph, uint64_t u, uint6
         require(u < voxels, "u is ", u, ": the grid has ", voxels, " voxels");
         require(v < voxels, "v is ", v, ": the grid has ", voxels, " voxels");
         need(steps, "steps") = read.weight_between(u, v);
+    });
+}
+
+locus_status locus_graph_cut_plane(locus_graph *graph, const double point[3], const double normal[3],
+                                   const locus_voxel_box *box, uint64_t *edges) noexcept {
+    return boundary(__func__, [&] {
+        graph::Graph &edited = *need(graph, "graph").graph;
+        const double *p = &need(point, "point");
+        const double *n = &need(normal, "normal");
+        const uint64_t cut = graph::cut_by_plane(edited, {p[0], p[1], p[2]}, {n[0], n[1], n[2]},
+                                                 box != nullptr ? *box : edited.grid().whole());
+        if (edges != nullptr)
+            *edges = cut;
+    });
+}
+
+locus_status locus_graph_cut_mesh(locus_graph *graph, const double *vertices, size_t vertex_count,
+                                  const uint32_t *triangles, size_t triangle_count, uint64_t *edges) noexcept {
+    return boundary(__func__, [&] {
+        graph::Graph &edited = *need(graph, "graph").graph;
+        uint64_t cut = 0;
+        require(vertex_count <= UINT32_MAX, "vertex_count is ", vertex_count, ", more than indices of 32 bits reach");
+        require(triangle_count <= SIZE_MAX / 12, "triangle_count is ", triangle_count, ", more than memory can hold");
+        if (triangle_count > 0)
+            cut = graph::cut_by_mesh(edited, {&need(vertices, "vertices"), 3 * vertex_count},
+                                     {&need(triangles, "triangles"), 3 * triangle_count});
+        if (edges != nullptr)
+            *edges = cut;
+    });
+}
+
+locus_status locus_graph_mend_box(locus_graph *graph, const locus_voxel_box *box, uint64_t *edges) noexcept {
+    return boundary(__func__, [&] {
+        graph::Graph &edited = *need(graph, "graph").graph;
+        const uint64_t mended = edited.mend_edges(box != nullptr ? *box : edited.grid().whole());
+        if (edges != nullptr)
+            *edges = mended;
     });
 }

@@ -132,7 +132,16 @@ void check_overflow(const Problem &problem, const Words &words, const Report &re
          remedy.str());
 }
 
-void Diagram::solve(Progress &progress) {
+void Diagram::solve(Progress &progress) { run(progress, nullptr); }
+
+Change Diagram::update(Progress &progress) {
+    Change change;
+    run(progress, &change);
+    return change;
+}
+
+// `change` asks for an update.
+void Diagram::run(Progress &progress, Change *change) {
     if (seeds_.empty())
         fail(LOCUS_E_STATE, "the diagram has no seeds");
     std::vector<Source> sources;
@@ -149,7 +158,10 @@ void Diagram::solve(Progress &progress) {
     const Problem problem{*graph_, sources, cutoff(), options_.record_trace != 0};
     Report report;
     try {
-        report = engine_->solve(problem, words_, progress);
+        if (change != nullptr && !solved_)
+            words_ = Words(); // what is left there is no result: everything changes
+        report = change != nullptr ? engine_->update(problem, words_, progress, *change)
+                                   : engine_->solve(problem, words_, progress);
     } catch (const Error
                  &) { // stopped, or a caller's weight out of range; where memory ran out, the old result is still there
         solved_ = false;

@@ -38,6 +38,8 @@ public:
     void place_seeds(const locus_place_options &options);
 
     void solve(Progress &progress);
+    // The same result from what is there, looking only at what was edited since where the engine can.
+    Change update(Progress &progress);
 
     // The result of the latest solve; all throw LOCUS_E_STATE where there is none.
     const Words &words() const;
@@ -64,6 +66,7 @@ private:
     size_t position(uint32_t id, const std::string &name) const;
     uint64_t cutoff() const;
     void renumber();
+    void run(Progress &progress, Change *change);
 
     std::shared_ptr<const Graph> graph_;
     locus_diagram_options options_;

@@ -4,22 +4,40 @@
 #include "graph/scaling.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <unordered_map>
 
 namespace locus::graph {
 namespace {
 
 constexpr size_t most_boxes = size_t{1} << 16; // a longer journal costs more than a fresh solve
 
-// The voxel and its neighbours: what a cut of its forward edges touches.
-Box around(const Grid &grid, uint64_t voxel) {
-    const auto place = grid.place(voxel);
-    Box box{};
-    for (size_t axis = 0; axis < 3; ++axis) {
-        box.origin[axis] = place[axis] - (place[axis] > 0 ? 1 : 0);
-        box.extent[axis] = std::min(grid.dims()[axis], place[axis] + 2) - box.origin[axis];
+// Boxes around voxels and all their neighbours, one for each block of 16 x 16 x 16 that has any of the voxels.
+std::vector<Box> boxes_around(const Grid &grid, std::span<const uint64_t> voxels) {
+    constexpr uint64_t block = 16;
+    struct Extent {
+        std::array<uint64_t, 3> first, last;
+    };
+    std::unordered_map<uint64_t, Extent> extents;
+    for (const uint64_t voxel : voxels) {
+        const auto place = grid.place(voxel);
+        const uint64_t key = grid.index(place[0] / block, place[1] / block, place[2] / block);
+        Extent &extent = extents.try_emplace(key, Extent{place, place}).first->second;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            extent.first[axis] = std::min(extent.first[axis], place[axis]);
+            extent.last[axis] = std::max(extent.last[axis], place[axis]);
+        }
     }
-    return box;
+    std::vector<Box> boxes;
+    for (const auto &[key, extent] : extents) {
+        Box &box = boxes.emplace_back();
+        for (size_t axis = 0; axis < 3; ++axis) {
+            box.origin[axis] = extent.first[axis] - (extent.first[axis] > 0 ? 1 : 0);
+            box.extent[axis] = std::min(grid.dims()[axis], extent.last[axis] + 2) - box.origin[axis];
+        }
+    }
+    return boxes;
 }
 
 } // namespace
@@ -122,12 +140,49 @@ void Graph::cut_edges(std::span<const uint64_t> voxels, std::span<const uint16_t
         return;
     if (cuts_.empty())
         cuts_.assign(grid_.voxels(), 0);
-    std::vector<Box> boxes;
-    for (size_t i = 0; i < voxels.size() && boxes.size() <= most_boxes; ++i)
-        boxes.push_back(around(grid_, voxels[i]));
-    journal(boxes);
+    journal(boxes_around(grid_, voxels));
     for (size_t i = 0; i < voxels.size(); ++i)
         cuts_[voxels[i]] = static_cast<uint16_t>(cuts_[voxels[i]] | masks[i]);
+}
+
+uint64_t Graph::mend_edges(const Box &box) {
+    grid_.check(box);
+    if (cuts_.empty())
+        return 0;
+    std::vector<uint64_t> voxels;
+    std::vector<uint16_t> masks;
+    uint64_t mended = 0;
+    Box wide{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+        wide.origin[axis] = box.origin[axis] - (box.origin[axis] > 0 ? 1 : 0);
+        wide.extent[axis] = std::min(grid_.dims()[axis], box.origin[axis] + box.extent[axis] + 1) - wide.origin[axis];
+    }
+    const auto in_box = [&](const std::array<uint64_t, 3> &place) {
+        return place[0] - box.origin[0] < box.extent[0] && place[1] - box.origin[1] < box.extent[1] &&
+               place[2] - box.origin[2] < box.extent[2];
+    };
+    for_each_voxel(grid_, wide, [&](uint64_t voxel, uint64_t) {
+        if (cuts_[voxel] == 0)
+            return;
+        const uint32_t inside = grid_.inside(grid_.place(voxel));
+        uint16_t mask = 0;
+        for (unsigned bit = 0; bit < 13; ++bit) {
+            const Neighbour &to = grid_.neighbour(first_forward + bit);
+            if ((cuts_[voxel] >> bit & 1) != 0 && (inside >> to.number & 1) != 0 &&
+                (in_box(grid_.place(voxel)) || in_box(grid_.place(voxel + static_cast<uint64_t>(to.step)))))
+                mask = static_cast<uint16_t>(mask | 1u << bit);
+        }
+        if (mask == 0)
+            return;
+        voxels.push_back(voxel);
+        masks.push_back(mask);
+        mended += static_cast<uint64_t>(std::popcount(mask));
+    });
+    if (mended > 0)
+        journal(boxes_around(grid_, voxels));
+    for (size_t i = 0; i < voxels.size(); ++i)
+        cuts_[voxels[i]] = static_cast<uint16_t>(cuts_[voxels[i]] & ~masks[i]);
+    return mended;
 }
 
 uint32_t Graph::open_edges(uint64_t voxel) const {

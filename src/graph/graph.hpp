@@ -75,6 +75,8 @@ public:
     // stands for the neighbour with number n. Null while nothing was ever cut.
     const uint16_t *cuts() const { return cuts_.empty() ? nullptr : cuts_.data(); }
     void cut_edges(std::span<const uint64_t> voxels, std::span<const uint16_t> masks);
+    // Undo the cuts of all edges with an end in the box; how many they were.
+    uint64_t mend_edges(const Box &box);
     // The neighbour numbers from u, inside the grid and of its connectivity, whose edges are not cut. Ends may be
     // impassable.
     uint32_t open_edges(uint64_t voxel) const;

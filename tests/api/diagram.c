@@ -245,7 +245,8 @@ int main(void) {
     locus_place_options place;
     locus_diagram *diagram = NULL, *plain = NULL;
     locus_seed back[8];
-    uint64_t active[64];
+    uint64_t active[64], changed = 1;
+    locus_voxel_box box;
     size_t count = 0;
     int calls = 0;
 
@@ -287,6 +288,13 @@ int main(void) {
     WORKS(locus_diagram_get_seeds(diagram, back, 8, &count));
     CHECK(count == 4 && back[0].id == 20 && back[1].id == 100 && back[3].id == 102);
     WORKS(locus_diagram_solve(diagram, NULL, NULL));
+    REFUSES(locus_diagram_update(NULL, &box, &changed, NULL, NULL), LOCUS_E_ARGUMENT, "diagram is NULL");
+    WORKS(locus_diagram_update(diagram, &box, &changed, NULL, NULL));
+    CHECK(changed == 0 && box.extent[0] == 0);
+    WORKS(locus_diagram_move_seed(diagram, 100, 0, 0, 0));
+    WORKS(locus_diagram_update(diagram, &box, &changed, NULL, NULL));
+    CHECK(changed > 0 && box.extent[0] > 0);
+    WORKS(locus_diagram_update(diagram, NULL, NULL, NULL, NULL));
     locus_diagram_destroy(diagram);
     locus_diagram_destroy(NULL);
     return check_result();

@@ -116,6 +116,9 @@ static void bad_arguments(locus_graph *graph) {
     const locus_voxel_box wraps = {{1, 0, 0}, {UINT64_MAX, 1, 1}};
     const uint64_t voxels[2] = {0, VOXELS};
     float values[VOXELS] = {0};
+    const double point[3] = {0.5, 0, 0}, normal[3] = {1, 0, 0}, zero[3] = {0, 0, 0}, nowhere[3] = {0, NAN, 0};
+    const double corners[9] = {0.5, 0, 0, 0.5, 1, 0, 0.5, 0, 1};
+    const uint32_t triangle[3] = {0, 1, 2}, beyond[3] = {0, 1, 3};
     uint64_t steps = 0;
     locus_graph_info info;
     info.struct_size = sizeof info;
@@ -143,10 +146,45 @@ static void bad_arguments(locus_graph *graph) {
     REFUSES(locus_graph_edge_weight(graph, VOXELS, 1, &steps), LOCUS_E_ARGUMENT, "u is 24");
     REFUSES(locus_graph_edge_weight(graph, 0, VOXELS, &steps), LOCUS_E_ARGUMENT, "v is 24");
     REFUSES(locus_graph_edge_weight(graph, 0, 1, NULL), LOCUS_E_ARGUMENT, "steps is NULL");
+    REFUSES(locus_graph_cut_plane(NULL, point, normal, NULL, NULL), LOCUS_E_ARGUMENT, "graph is NULL");
+    REFUSES(locus_graph_cut_plane(graph, NULL, normal, NULL, NULL), LOCUS_E_ARGUMENT, "point is NULL");
+    REFUSES(locus_graph_cut_plane(graph, point, NULL, NULL, NULL), LOCUS_E_ARGUMENT, "normal is NULL");
+    REFUSES(locus_graph_cut_plane(graph, nowhere, normal, NULL, NULL), LOCUS_E_ARGUMENT, "point[1]");
+    REFUSES(locus_graph_cut_plane(graph, point, zero, NULL, NULL), LOCUS_E_ARGUMENT, "normal");
+    REFUSES(locus_graph_cut_plane(graph, point, normal, &outside, NULL), LOCUS_E_ARGUMENT, "box");
+    REFUSES(locus_graph_cut_mesh(NULL, corners, 3, triangle, 1, NULL), LOCUS_E_ARGUMENT, "graph is NULL");
+    REFUSES(locus_graph_cut_mesh(graph, NULL, 3, triangle, 1, NULL), LOCUS_E_ARGUMENT, "vertices is NULL");
+    REFUSES(locus_graph_cut_mesh(graph, corners, 3, NULL, 1, NULL), LOCUS_E_ARGUMENT, "triangles is NULL");
+    REFUSES(locus_graph_cut_mesh(graph, corners, 3, beyond, 1, NULL), LOCUS_E_ARGUMENT, "triangles[2] is 3");
+    REFUSES(locus_graph_mend_box(NULL, &box, NULL), LOCUS_E_ARGUMENT, "graph is NULL");
+    REFUSES(locus_graph_mend_box(graph, &outside, NULL), LOCUS_E_ARGUMENT, "box");
     (void)empty;
     /* Nothing of all this has changed the graph. */
     WORKS(locus_graph_get_box(graph, &box, values, 8));
     CHECK(values[0] == 1 && values[1] == 2 && values[7] == 1 + 5 + 12);
+}
+
+/* A plane, the same as a mesh, and mending. */
+static void cuts(void) {
+    const double point[3] = {0.5, 0, 0}, normal[3] = {1, 0, 0};
+    const double corners[12] = {0.5, -9, -9, 0.5, 99, -9, 0.5, -9, 99, 0.5, 99, 99};
+    const uint32_t triangles[6] = {0, 1, 2, 1, 3, 2};
+    const locus_graph_options options = good_options();
+    locus_graph *graph = NULL;
+    uint64_t edges = 0, again = 1, steps = 1;
+    WORKS(locus_graph_create(&options, material, &graph));
+    WORKS(locus_graph_cut_plane(graph, point, normal, NULL, &edges));
+    CHECK(edges > 0);
+    WORKS(locus_graph_edge_weight(graph, 0, 1, &steps));
+    CHECK(steps == 0);
+    WORKS(locus_graph_cut_mesh(graph, corners, 4, triangles, 2, &again));
+    CHECK(again == 0);
+    WORKS(locus_graph_cut_mesh(graph, NULL, 0, NULL, 0, NULL));
+    WORKS(locus_graph_mend_box(graph, NULL, &again));
+    CHECK(again == edges);
+    WORKS(locus_graph_edge_weight(graph, 0, 1, &steps));
+    CHECK(steps > 0);
+    locus_graph_destroy(graph);
 }
 
 static void walk(void) {
@@ -186,6 +224,7 @@ static void walk(void) {
     WORKS(locus_graph_get_info(graph, &info));
     CHECK(info.passable == VOXELS - 4);
     REFUSES(locus_graph_fill_box(graph, &box, 1e30f), LOCUS_E_RANGE, "value");
+    cuts();
     locus_graph_destroy(graph);
     locus_graph_destroy(NULL);
 }

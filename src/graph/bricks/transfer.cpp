@@ -140,15 +140,26 @@ Exported export_changes(const graph::Graph &graph, const Place &place, const Bri
     Exported exported;
     for_rows(graph, place, brick, [&](uint64_t x, uint64_t y, uint64_t z, const Word *from, unsigned count) {
         Word *to = words + graph.grid().index(x, y, z);
+        Word now[kWidth];
+        Word reached = 0, changed = 0, gained = 0, lost = 0;
         for (unsigned i = 0; i < count; ++i) {
-            const Word word = from[i] < unreached ? from[i] : none;
-            exported.reached += word != none ? 1 : 0;
-            if (word == to[i])
-                continue;
-            Exported voxel{0, 1, to[i] == none, word == none, {x + i, y, z}, {x + i, y, z}};
-            exported.add(voxel);
-            to[i] = word;
+            now[i] = from[i] < unreached ? from[i] : none;
+            const bool before = to[i] != none, after = now[i] != none;
+            reached += after ? 1 : 0;
+            changed += to[i] != now[i] ? 1 : 0;
+            gained += after && !before ? 1 : 0;
+            lost += before && !after ? 1 : 0;
         }
+        exported.reached += reached;
+        if (changed == 0)
+            return;
+        uint64_t first = 0, last = count - 1;
+        while (to[first] == now[first])
+            ++first;
+        while (to[last] == now[last])
+            --last;
+        exported.add({0, changed, gained, lost, {x + first, y, z}, {x + last, y, z}});
+        std::copy_n(now, count, to);
     });
     return exported;
 }
