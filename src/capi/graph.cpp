@@ -2,9 +2,12 @@
 #include "capi/boundary.hpp"
 #include "capi/handles.hpp"
 #include "core/options.hpp"
+
+#include "core/simd.hpp"
 #include "graph/cuts.hpp"
 
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 
 using namespace locus;
@@ -35,6 +38,20 @@ locus_graph_options defaults() {
     return options;
 }
 
+// What was chosen, and what it may lead to.
+void log_choices(const locus_graph_options &options, const locus_graph_info &info) {
+    if (options.log == nullptr)
+        return;
+    char text[200];
+    std::snprintf(
+        text, sizeof text, "words of %u bits, %u of them for the label, scale %g, weight error up to %g, simd %s",
+        info.word_bits, info.label_bits, info.scale, info.weight_error, simd_name(static_cast<Simd>(info.simd)));
+    options.log(LOCUS_LOG_INFO, text, options.log_user);
+    if (info.overflow_free == 0)
+        options.log(LOCUS_LOG_WARNING, "some path may be longer than a word holds: a solve would return LOCUS_E_RANGE",
+                    options.log_user);
+}
+
 } // namespace
 
 locus_status locus_graph_options_init(locus_graph_options *options, size_t size) noexcept {
@@ -50,6 +67,7 @@ locus_status locus_graph_create(const locus_graph_options *options, const float 
         require(whole.reserved0 == 0, "options->reserved0 is ", whole.reserved0, ", not 0");
         auto made = std::make_unique<locus_graph>();
         made->graph = std::make_shared<graph::Graph>(whole, material);
+        log_choices(whole, made->graph->info());
         *graph = made.release();
     });
 }

@@ -229,6 +229,29 @@ static void walk(void) {
     locus_graph_destroy(NULL);
 }
 
+static void count_lines(int32_t level, const char *text, void *user) {
+    CHECK(level == LOCUS_LOG_INFO || level == LOCUS_LOG_WARNING);
+    CHECK(text != NULL && text[0] != '\0' && strchr(text, '\n') == NULL);
+    ++((int *)user)[level == LOCUS_LOG_WARNING];
+}
+
+static void logs(void) {
+    locus_graph_options options = good_options();
+    locus_graph *graph = NULL;
+    int lines[2] = {0, 0};
+    options.log = count_lines;
+    options.log_user = lines;
+    WORKS(locus_graph_create(&options, material, &graph));
+    CHECK(lines[0] == 1 && lines[1] == 0);
+    locus_graph_destroy(graph);
+    options.word_bits = LOCUS_WORD_32; /* too coarse a word for the longest path */
+    options.max_seeds = (uint64_t)1 << 16;
+    options.scale = 300;
+    WORKS(locus_graph_create(&options, material, &graph));
+    CHECK(lines[0] == 2 && lines[1] == 1);
+    locus_graph_destroy(graph);
+}
+
 static void callers_weight(void) {
     locus_graph_options options = good_options();
     locus_graph *graph = NULL;
@@ -256,5 +279,6 @@ int main(void) {
     bad_options();
     walk();
     callers_weight();
+    logs();
     return check_result();
 }

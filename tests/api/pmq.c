@@ -290,6 +290,28 @@ static void walk(uint32_t index) {
     locus_pmq_destroy(NULL);
 }
 
+static void count_lines(int32_t level, const char *text, void *user) {
+    CHECK(level == LOCUS_LOG_INFO && strchr(text, '\n') == NULL);
+    ++*(int *)user;
+}
+
+static void logs(void) {
+    locus_pmq_options options;
+    locus_point32 records[100];
+    locus_pmq *pmq = NULL;
+    int lines = 0, i;
+    for (i = 0; i < 100; i++)
+        records[i] = point(i * 0.5, i, 0, 0);
+    WORKS(locus_pmq_options_init(&options, sizeof options));
+    options.layout = LOCUS_LAYOUT_PACKED_ARRAY;
+    options.log = count_lines;
+    options.log_user = &lines;
+    WORKS(locus_pmq_create(&options, &pmq));
+    WORKS(locus_pmq_insert(pmq, records, 100, 0)); /* the array grows */
+    CHECK(lines > 0);
+    locus_pmq_destroy(pmq);
+}
+
 static void texts(void) {
     locus_pmq_options options;
     locus_text156 records[2], back[2];
@@ -320,6 +342,7 @@ int main(void) {
     walk(LOCUS_INDEX_IMPLICIT);
     walk(LOCUS_INDEX_EXPLICIT);
     texts();
+    logs();
     WORKS(locus_pmq_create(NULL, &pmq));
     WORKS(locus_pmq_check(pmq));
     locus_pmq_destroy(pmq);

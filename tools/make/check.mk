@@ -6,7 +6,7 @@ check: $(CHECKS) ## the long tests: sanitizers, clang, SIMD=scalar, fuzzing, the
 	@echo "make check: all passed"
 
 # The areas whose tests use threads.
-THREADED := $(filter unit-graph unit-pmq unit-core,$(UNIT_AREAS:%=unit-%))
+THREADED := $(filter unit-core unit-graph unit-weights unit-pmq,$(UNIT_AREAS:%=unit-%))
 
 check-address-gcc: | $(call needs,test check)
 	@+$(MAKE) --no-print-directory SANITIZE=address unit api
