@@ -2,7 +2,6 @@
 #include "capi/boundary.hpp"
 #include "capi/handles.hpp"
 #include "core/options.hpp"
-
 #include "core/simd.hpp"
 #include "graph/cuts.hpp"
 
