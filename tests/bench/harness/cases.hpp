@@ -36,6 +36,7 @@ void add_pmq_insert(Cases &cases);
 void add_pmq_window(Cases &cases);
 void add_pmq_queries(Cases &cases);
 void add_voronoi(Cases &cases);
+void add_updates(Cases &cases);
 void add_weights(Cases &cases);
 void add_thesis_chapter2(Cases &cases);
 void add_thesis_chapter3(Cases &cases);

@@ -41,6 +41,7 @@ Cases all_cases() {
     add_pmq_window(cases);
     add_pmq_queries(cases);
     add_voronoi(cases);
+    add_updates(cases);
     add_weights(cases);
     add_thesis_chapter2(cases);
     add_thesis_chapter3(cases);

@@ -33,6 +33,7 @@ public:
     std::vector<uint64_t> exact_distances() const;
     std::vector<float> distances() const;
     uint32_t edge_weight(uint64_t u, uint64_t v) const; ///< in steps; 0: no edge
+    locus_graph *graph() const { return graph_.get(); }
     locus_diagram *diagram() const { return diagram_.get(); }
     const std::string &peer() const { return engine_.peer; }
 
