@@ -14,6 +14,15 @@ extern "C" {
 #endif
 
 typedef struct locus_pmq locus_pmq;
+typedef struct locus_pmq_snapshot locus_pmq_snapshot;
+
+/* Threads. One thread at a time changes a store (insert, sweep, erase) or checks it; a second one gets LOCUS_E_BUSY and
+ * nothing happens. Any number of threads may ask at the same time, beside the writer, too. Each answer is that of one
+ * moment between two batches. With ring leaves nobody waits for readers, and readers wait for the end of a change only
+ * when it began while nobody read and is small: less than a millisecond, as a rule. With the packed array readers wait
+ * while a change is made, and a change waits for the readers that are at work. Callbacks are called without locks, but
+ * for the packed array's: its predicate keeps readers waiting, a reader's filter or visitor the writer, and neither may
+ * ask the store. */
 
 /* The record layouts, by size. Latitudes are -90..90 and longitudes -180..180 degrees (180 and -180 are the same
  * meridian and keep the value given; the key takes it as -180); times are microseconds since 1970-01-01 UTC.
@@ -98,6 +107,9 @@ typedef struct locus_pmq_options {
     double tau_leaf;    /* default 0.92 */
     double rho_root;    /* default 0.30 */
     double tau_root;    /* default 0.70 */
+    /* Ring leaves: most memory kept only for snapshots, in bytes; beyond, the oldest snapshot turns stale. Default 1
+     * GiB. */
+    uint64_t snapshot_bytes;
 } locus_pmq_options;
 
 /* A box in degrees, borders included. west > east means a box across the antimeridian. Coordinates are compared as they
@@ -128,6 +140,8 @@ typedef struct locus_pmq_query {
     int64_t time_to;        /* microseconds, included; default INT64_MAX */
     locus_filter_fn filter; /* default NULL */
     void *filter_user;
+    /* Ask this snapshot of the same store instead of the present; default NULL. Not for locus_pmq_erase. */
+    const locus_pmq_snapshot *snapshot;
 } locus_pmq_query;
 
 typedef struct locus_pmq_stats {
@@ -172,34 +186,46 @@ LOCUS_API void locus_pmq_destroy(locus_pmq *pmq) LOCUS_NOEXCEPT;
  * sink. A record that is already older than the horizon is evicted like any other and never seen by a query. Errors
  * that store nothing: LOCUS_E_ARGUMENT (coordinates that are NaN or out of range, a time after `now` unless clamped:
  * the text names the first such record's index and value; a clock that runs back), LOCUS_E_MEMORY. LOCUS_E_STOPPED: the
- * batch is stored and visible, but the predicate or the sink stopped. Not beside any other call on the store. Since
+ * batch is stored and visible, but the predicate or the sink stopped. LOCUS_E_BUSY. Beside readers. Since
  * 0.1. */
 LOCUS_API locus_status locus_pmq_insert(locus_pmq *pmq, const void *records, size_t count, int64_t now) LOCUS_NOEXCEPT;
 
 /* Set the clock to `now` and evict everything that may go: expired records, those the predicate permits, what exceeds
  * the limits. `*evicted` (may be NULL) is the number of records that left. Errors: LOCUS_E_ARGUMENT (a clock that runs
- * back), LOCUS_E_MEMORY (nothing removed), LOCUS_E_STOPPED. Not beside any other call on the store. Since 0.1. */
+ * back), LOCUS_E_MEMORY (nothing removed), LOCUS_E_STOPPED. LOCUS_E_BUSY. Beside readers. Since 0.1. */
 LOCUS_API locus_status locus_pmq_sweep(locus_pmq *pmq, int64_t now, uint64_t *evicted) LOCUS_NOEXCEPT;
 
 /* Remove the live records that `query` selects (NULL: all) and hand them to the sink. `*erased` (may be NULL) is their
  * number. Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY (nothing removed), LOCUS_E_STOPPED (by the sink; they are removed).
- * Not beside any other call on the store. Since 0.1. */
+ * LOCUS_E_BUSY. Beside readers. Since 0.1. */
 LOCUS_API locus_status locus_pmq_erase(locus_pmq *pmq, const locus_pmq_query *query, uint64_t *erased) LOCUS_NOEXCEPT;
 
-/* Count the live records that `query` selects (NULL: all). Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1.
+/* Keep the present moment, its records and its clock, for several queries (locus_pmq_query.snapshot). What the store
+ * changes meanwhile it changes in copies, whose memory is bounded by options.snapshot_bytes: beyond, the oldest
+ * snapshot turns stale, and queries of it return LOCUS_E_STALE. `*snapshot` is the caller's, to be ended with
+ * locus_pmq_snapshot_destroy, before or after the store; NULL on any error. Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY,
+ * LOCUS_E_UNSUPPORTED (packed array). Beside readers and the writer. Since 0.1. */
+LOCUS_API locus_status locus_pmq_snapshot_create(const locus_pmq *pmq, locus_pmq_snapshot **snapshot) LOCUS_NOEXCEPT;
+
+/* End a snapshot. NULL is fine. Not beside a query of it. Since 0.1. */
+LOCUS_API void locus_pmq_snapshot_destroy(locus_pmq_snapshot *snapshot) LOCUS_NOEXCEPT;
+
+/* Count the live records that `query` selects (NULL: all). Errors: LOCUS_E_ARGUMENT. LOCUS_E_STALE. Beside readers and
+ * the writer. Since 0.1.
  */
 LOCUS_API locus_status locus_pmq_count(const locus_pmq *pmq, const locus_pmq_query *query,
                                        uint64_t *count) LOCUS_NOEXCEPT;
 
 /* Copy the live records that `query` selects (NULL: all), in the order (key, arrival), into `records`, which has room
  * for `capacity` of them. `*count` is how many there are, also when the capacity is too small: then the first
- * `capacity` are copied and the status is LOCUS_E_CAPACITY. Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1.
+ * `capacity` are copied and the status is LOCUS_E_CAPACITY. Errors: LOCUS_E_ARGUMENT. LOCUS_E_STALE. Beside readers and
+ * the writer. Since 0.1.
  */
 LOCUS_API locus_status locus_pmq_read(const locus_pmq *pmq, const locus_pmq_query *query, void *records,
                                       size_t capacity, size_t *count) LOCUS_NOEXCEPT;
 
-/* Show the same records to `visit`, one by one. Errors: LOCUS_E_ARGUMENT, LOCUS_E_STOPPED. Beside other readers. Since
- * 0.1. */
+/* Show the same records to `visit`, one by one. Errors: LOCUS_E_ARGUMENT, LOCUS_E_STOPPED. LOCUS_E_STALE. Beside
+ * readers and the writer. Since 0.1. */
 LOCUS_API locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_query *query, locus_visit_fn visit,
                                        void *user) LOCUS_NOEXCEPT;
 
@@ -208,16 +234,17 @@ LOCUS_API locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_que
  * `capacity` numbers (a count beyond 2^32 - 1 stays there). A record belongs to the bin of its (clamped) key; finer
  * than the key's 25 levels, of its coordinates. `query` (may be NULL) adds a time window and a filter; its region must
  * be LOCUS_REGION_ALL. `*total` (may be NULL) is the sum. Errors: LOCUS_E_ARGUMENT (a tile that does not exist),
- * LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
+ * LOCUS_E_CAPACITY. LOCUS_E_STALE. Beside readers and the writer. Since 0.1. */
 LOCUS_API locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y, uint32_t log2_bins,
                                       const locus_pmq_query *query, uint32_t *bins, size_t capacity,
                                       uint64_t *total) LOCUS_NOEXCEPT;
 
-/* Store the statistics; set stats->struct_size first. Errors: LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
+/* Store the statistics; set stats->struct_size first. Errors: LOCUS_E_ARGUMENT. Beside readers and the writer. Since
+ * 0.1. */
 LOCUS_API locus_status locus_pmq_get_stats(const locus_pmq *pmq, locus_pmq_stats *stats) LOCUS_NOEXCEPT;
 
 /* Verify every invariant of the store: order, counts, densities, index. Reads all records. LOCUS_E_INTERNAL with a text
- * that names what is broken; LOCUS_E_ARGUMENT. Beside other readers. Since 0.1. */
+ * that names what is broken; LOCUS_E_ARGUMENT, LOCUS_E_BUSY. Beside readers. Since 0.1. */
 LOCUS_API locus_status locus_pmq_check(const locus_pmq *pmq) LOCUS_NOEXCEPT;
 
 #ifdef __cplusplus

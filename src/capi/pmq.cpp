@@ -13,16 +13,21 @@ using locus::require;
 using namespace locus::pmq;
 
 struct locus_pmq {
-    Store store;
+    std::shared_ptr<Store> store;
 };
 
-static_assert(sizeof(locus_pmq_options) == 136, "append only; then update the ABI baseline");
-static_assert(sizeof(locus_pmq_query) == 80, "append only; then update the ABI baseline");
+struct locus_pmq_snapshot {
+    std::shared_ptr<Store> store; // kept alive
+    std::shared_ptr<const Snapshot> moment;
+};
+
+static_assert(sizeof(locus_pmq_options) == 144, "append only; then update the ABI baseline");
+static_assert(sizeof(locus_pmq_query) == 88, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_stats) == 136, "append only; then update the ABI baseline");
 
 namespace {
 
-constexpr size_t first_options_size = 136, first_query_size = 80, first_stats_size = 136;
+constexpr size_t first_options_size = 144, first_query_size = 88, first_stats_size = 136;
 
 locus_pmq_query default_query() noexcept {
     locus_pmq_query query{};
@@ -48,14 +53,24 @@ public:
         selection_.times = {whole.time_from, whole.time_to};
         selection_.filter = whole.filter;
         selection_.filter_user = whole.filter_user;
+        snapshot_ = whole.snapshot;
     }
     Question(const Question &) = delete;
     Question &operator=(const Question &) = delete;
     const Selection &selection() const noexcept { return selection_; }
+    const locus_pmq_snapshot *snapshot() const noexcept { return snapshot_; }
+    // What is to be asked.
+    std::shared_ptr<const View> view(const locus_pmq &pmq) const {
+        if (snapshot_ == nullptr)
+            return pmq.store->view();
+        require(snapshot_->store == pmq.store, "query.snapshot is another store's");
+        return snapshot_->moment->view();
+    }
 
 private:
     std::optional<BoxRegion> box_;
     Selection selection_;
+    const locus_pmq_snapshot *snapshot_ = nullptr;
 };
 
 // What ran until one of the caller's callbacks stopped it.
@@ -92,7 +107,8 @@ locus_status locus_pmq_key(double latitude, double longitude, uint64_t *key) noe
 locus_status locus_pmq_create(const locus_pmq_options *options, locus_pmq **pmq) noexcept {
     return boundary(__func__, [&] {
         need(pmq, "pmq") = nullptr;
-        *pmq = new locus_pmq{Store(locus::read_options(options, default_options(), first_options_size))};
+        *pmq =
+            new locus_pmq{std::make_shared<Store>(locus::read_options(options, default_options(), first_options_size))};
     });
 }
 
@@ -102,14 +118,14 @@ locus_status locus_pmq_insert(locus_pmq *pmq, const void *records, size_t count,
     return boundary(__func__, [&] {
         need(pmq, "pmq");
         require(records != nullptr || count == 0, "records is NULL, count is ", count);
-        finished(pmq->store.insert(static_cast<const std::byte *>(records), count, now), "remove or sink");
+        finished(pmq->store->insert(static_cast<const std::byte *>(records), count, now), "remove or sink");
     });
 }
 
 locus_status locus_pmq_sweep(locus_pmq *pmq, int64_t now, uint64_t *evicted) noexcept {
     return boundary(__func__, [&] {
         uint64_t number = 0;
-        const bool completely = need(pmq, "pmq").store.sweep(now, number);
+        const bool completely = need(pmq, "pmq").store->sweep(now, number);
         store_to(evicted, number);
         finished(completely, "remove or sink");
     });
@@ -119,19 +135,30 @@ locus_status locus_pmq_erase(locus_pmq *pmq, const locus_pmq_query *query, uint6
     return boundary(__func__, [&] {
         need(pmq, "pmq");
         const Question question(query);
+        require(question.snapshot() == nullptr, "query.snapshot is set: erasing is of the present");
         uint64_t number = 0;
-        const bool completely = pmq->store.erase(question.selection(), number);
+        const bool completely = pmq->store->erase(question.selection(), number);
         store_to(erased, number);
         finished(completely, "sink");
     });
 }
+
+locus_status locus_pmq_snapshot_create(const locus_pmq *pmq, locus_pmq_snapshot **snapshot) noexcept {
+    return boundary(__func__, [&] {
+        need(snapshot, "snapshot") = nullptr;
+        const std::shared_ptr<Store> &store = need(pmq, "pmq").store;
+        *snapshot = new locus_pmq_snapshot{store, store->snapshot()};
+    });
+}
+
+void locus_pmq_snapshot_destroy(locus_pmq_snapshot *snapshot) noexcept { delete snapshot; }
 
 locus_status locus_pmq_count(const locus_pmq *pmq, const locus_pmq_query *query, uint64_t *count) noexcept {
     return boundary(__func__, [&] {
         need(pmq, "pmq");
         need(count, "count");
         const Question question(query);
-        *count = locus::pmq::count(*pmq->store.view(), question.selection());
+        *count = locus::pmq::count(*question.view(*pmq), question.selection());
     });
 }
 
@@ -142,7 +169,7 @@ locus_status locus_pmq_read(const locus_pmq *pmq, const locus_pmq_query *query, 
         need(count, "count");
         require(records != nullptr || capacity == 0, "records is NULL, capacity is ", capacity);
         const Question question(query);
-        *count = read(*pmq->store.view(), question.selection(), static_cast<std::byte *>(records), capacity);
+        *count = read(*question.view(*pmq), question.selection(), static_cast<std::byte *>(records), capacity);
         if (*count > capacity)
             locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", *count, " records");
     });
@@ -154,7 +181,7 @@ locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_query *query,
         need(pmq, "pmq");
         need(visit, "visit");
         const Question question(query);
-        finished(locus::pmq::visit(*pmq->store.view(), question.selection(), visit, user), "visit");
+        finished(locus::pmq::visit(*question.view(*pmq), question.selection(), visit, user), "visit");
     });
 }
 
@@ -175,7 +202,7 @@ locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uin
         const size_t number = size_t{1} << (2 * log2_bins);
         if (capacity < number)
             locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", number, " bins");
-        const uint64_t sum = tile(*pmq->store.view(), question.selection(), locus::Quadrant::of_tile(zoom, x, y),
+        const uint64_t sum = tile(*question.view(*pmq), question.selection(), locus::Quadrant::of_tile(zoom, x, y),
                                   log2_bins, {bins, number});
         store_to(total, sum);
     });
@@ -185,10 +212,10 @@ locus_status locus_pmq_get_stats(const locus_pmq *pmq, locus_pmq_stats *stats) n
     return boundary(__func__, [&] {
         need(pmq, "pmq");
         need(stats, "stats");
-        locus::write_report(stats, pmq->store.stats(), first_stats_size, "stats");
+        locus::write_report(stats, pmq->store->stats(), first_stats_size, "stats");
     });
 }
 
 locus_status locus_pmq_check(const locus_pmq *pmq) noexcept {
-    return boundary(__func__, [&] { need(pmq, "pmq").store.check(); });
+    return boundary(__func__, [&] { need(pmq, "pmq").store->check(); });
 }

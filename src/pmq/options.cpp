@@ -25,6 +25,7 @@ locus_pmq_options default_options() noexcept {
     options.tau_leaf = densities.tau_leaf;
     options.rho_root = densities.rho_root;
     options.tau_root = densities.tau_root;
+    options.snapshot_bytes = uint64_t{1} << 30;
     return options;
 }
 
@@ -73,7 +74,7 @@ const RecordFormat &record_format(const locus_pmq_options &options) noexcept {
 }
 
 std::unique_ptr<Layout> make_layout(const locus_pmq_options &options) {
-    const Limits limits{options.max_records, options.max_bytes};
+    const Limits limits{options.max_records, options.max_bytes, options.snapshot_bytes};
     if (options.layout == LOCUS_LAYOUT_RING_LEAVES)
         return std::make_unique<RingLeaves>(record_format(options), limits);
     return std::make_unique<PackedArray>(record_format(options), densities_of(options), limits,

@@ -21,7 +21,26 @@ const locus_pmq_options &checked_options(const locus_pmq_options &options) {
 
 Store::Store(const locus_pmq_options &options)
     : options_(checked_options(options)), format_(record_format(options)), layout_(make_layout(options)),
-      departures_(format_, options.sink, options.sink_user) {}
+      departures_(format_, options.sink, options.sink_user) {
+    publish_figures();
+}
+
+Store::Writing::Writing(const Store &store) : busy_(store.busy_) {
+    if (busy_.exchange(true))
+        fail(LOCUS_E_BUSY, "another call that changes or checks the store is at work");
+}
+
+std::shared_ptr<const View> Store::view() const {
+    if (layout_->views_last())
+        return layout_->view();
+    const auto reading = std::make_shared<std::shared_lock<std::shared_mutex>>(gate_, std::defer_lock);
+    {
+        const std::lock_guard turn(turnstile_);
+        reading->lock();
+    }
+    const std::shared_ptr<const View> view = layout_->view();
+    return {reading, view.get()};
+}
 
 Eviction Store::eviction_at(int64_t now) const {
     require(now >= now_, "now is ", now, ", before the clock's ", now_);
@@ -65,7 +84,14 @@ uint64_t Store::change(Change &&change) {
     const auto start = std::chrono::steady_clock::now();
     const LayoutStats before = options_.log ? layout_->stats() : LayoutStats{};
     const uint64_t left = departures_.left();
-    change();
+    {
+        std::unique_lock alone(gate_, std::defer_lock);
+        if (!layout_->views_last()) {
+            const std::lock_guard turn(turnstile_);
+            alone.lock();
+        }
+        change();
+    }
     const auto pause = std::chrono::steady_clock::now() - start;
     longest_pause_ns_ = std::max(
         longest_pause_ns_, static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(pause).count()));
@@ -74,28 +100,31 @@ uint64_t Store::change(Change &&change) {
 }
 
 bool Store::insert(Bytes records, size_t count, int64_t now) {
+    const Writing writing(*this);
     Eviction eviction = eviction_at(now);
     evicted_ += change([&] { layout_->insert(checked(records, count, now), eviction, departures_); });
     now_ = now;
     inserted_ += count;
     ++batches_;
-    const bool handed_over = departures_.hand_over();
+    const bool handed_over = hand_over();
     return handed_over && !eviction.stopped();
 }
 
 bool Store::sweep(int64_t now, uint64_t &evicted) {
+    const Writing writing(*this);
     Eviction eviction = eviction_at(now);
     evicted = change([&] { layout_->sweep(eviction, departures_); });
     now_ = now;
     evicted_ += evicted;
-    const bool handed_over = departures_.hand_over();
+    const bool handed_over = hand_over();
     return handed_over && !eviction.stopped();
 }
 
 bool Store::erase(const Selection &selection, uint64_t &erased) {
+    const Writing writing(*this);
     erased = change([&] { layout_->erase(selection, departures_); });
     erased_ += erased;
-    return departures_.hand_over();
+    return hand_over();
 }
 
 void Store::log_growth(const LayoutStats &before) const {
@@ -109,11 +138,17 @@ void Store::log_growth(const LayoutStats &before) const {
     options_.log(LOCUS_LOG_INFO, text, options_.log_user);
 }
 
-locus_pmq_stats Store::stats() const {
+bool Store::hand_over() {
+    publish_figures();
+    const bool completely = departures_.hand_over();
+    publish_figures();
+    return completely;
+}
+
+void Store::publish_figures() {
     const LayoutStats layout = layout_->stats();
     locus_pmq_stats stats{};
     stats.struct_size = sizeof stats;
-    stats.records = pmq::count(*view(), {});
     stats.stored = layout.stored;
     stats.pending = departures_.pending();
     stats.slots = layout.slots;
@@ -129,10 +164,22 @@ locus_pmq_stats Store::stats() const {
     stats.longest_pause_ns = longest_pause_ns_;
     stats.density = layout.slots == 0 ? 0.0 : static_cast<double>(layout.stored) / static_cast<double>(layout.slots);
     stats.now = now_;
+    const std::lock_guard lock(figures_mutex_);
+    figures_ = stats;
+}
+
+locus_pmq_stats Store::stats() const {
+    locus_pmq_stats stats;
+    {
+        const std::lock_guard lock(figures_mutex_);
+        stats = figures_;
+    }
+    stats.records = pmq::count(*view(), {});
     return stats;
 }
 
 void Store::check() const {
+    const Writing writing(*this);
     layout_->check();
     const uint64_t gone = evicted_ + erased_, stored = layout_->stats().stored;
     if (inserted_ - gone != stored)

@@ -7,7 +7,10 @@
 #include "pmq/layout/layout.hpp"
 #include "pmq/query/selection.hpp"
 
+#include <atomic>
 #include <memory>
+#include <mutex>
+#include <shared_mutex>
 #include <vector>
 
 namespace locus::pmq {
@@ -17,22 +20,38 @@ public:
     // Throws Error(LOCUS_E_ARGUMENT) for an option out of its range.
     explicit Store(const locus_pmq_options &options);
 
-    // Each is true unless a callback stopped; what was asked for has happened all the same.
+    // Each is true unless a callback stopped; what was asked for has happened all the same. One thread at a time:
+    // another one gets Error(LOCUS_E_BUSY).
     bool insert(Bytes records, size_t count, int64_t now);
     bool sweep(int64_t now, uint64_t &evicted);
     bool erase(const Selection &selection, uint64_t &erased);
 
     // What the queries (query/queries.hpp) ask.
-    std::shared_ptr<const View> view() const { return layout_->view(); }
+    std::shared_ptr<const View> view() const;
+    std::shared_ptr<const Snapshot> snapshot() const { return layout_->snapshot(); }
     locus_pmq_stats stats() const;
     void check() const;
 
 private:
+    // While one lives, its thread alone may change the store.
+    class Writing {
+    public:
+        explicit Writing(const Store &store);
+        ~Writing() { busy_.store(false); }
+        Writing(const Writing &) = delete;
+        Writing &operator=(const Writing &) = delete;
+
+    private:
+        std::atomic<bool> &busy_;
+    };
+
     Eviction eviction_at(int64_t now) const;
     Batch checked(Bytes records, size_t count, int64_t now);
     void check_record(Bytes record, size_t index, int64_t now) const;
     template <typename Change>
     uint64_t change(Change &&change);
+    bool hand_over();
+    void publish_figures();
     void log_growth(const LayoutStats &before) const;
 
     const locus_pmq_options options_;
@@ -43,6 +62,14 @@ private:
     std::vector<uint64_t> keys_;     // of the batch at work
     std::vector<std::byte> clamped_; // its records, if a time had to be changed
     uint64_t inserted_ = 0, evicted_ = 0, erased_ = 0, batches_ = 0, longest_pause_ns_ = 0;
+
+    mutable std::atomic<bool> busy_ = false;
+    // Where views do not last: readers share the gate, a change excludes them. Who waits for it holds the turnstile, so
+    // that readers cannot starve the writer.
+    mutable std::mutex turnstile_;
+    mutable std::shared_mutex gate_;
+    mutable std::mutex figures_mutex_;
+    locus_pmq_stats figures_{}; // after the latest change
 };
 
 } // namespace locus::pmq

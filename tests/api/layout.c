@@ -126,7 +126,7 @@ int main(void) {
     FIELD(locus_text156, time, 8);
     FIELD(locus_text156, text, 16);
 
-    SIZE(locus_pmq_options, 136);
+    SIZE(locus_pmq_options, 144);
     FIELD(locus_pmq_options, struct_size, 0);
     FIELD(locus_pmq_options, record, 8);
     FIELD(locus_pmq_options, layout, 12);
@@ -147,6 +147,7 @@ int main(void) {
     FIELD(locus_pmq_options, tau_leaf, 112);
     FIELD(locus_pmq_options, rho_root, 120);
     FIELD(locus_pmq_options, tau_root, 128);
+    FIELD(locus_pmq_options, snapshot_bytes, 136);
 
     SIZE(locus_box, 32);
     FIELD(locus_box, south, 0);
@@ -154,7 +155,7 @@ int main(void) {
     FIELD(locus_box, north, 16);
     FIELD(locus_box, east, 24);
 
-    SIZE(locus_pmq_query, 80);
+    SIZE(locus_pmq_query, 88);
     FIELD(locus_pmq_query, struct_size, 0);
     FIELD(locus_pmq_query, region, 8);
     FIELD(locus_pmq_query, reserved0, 12);
@@ -163,6 +164,7 @@ int main(void) {
     FIELD(locus_pmq_query, time_to, 56);
     FIELD(locus_pmq_query, filter, 64);
     FIELD(locus_pmq_query, filter_user, 72);
+    FIELD(locus_pmq_query, snapshot, 80);
 
     SIZE(locus_pmq_stats, 136);
     FIELD(locus_pmq_stats, struct_size, 0);

@@ -334,8 +334,33 @@ static void texts(void) {
     locus_pmq_destroy(pmq);
 }
 
+static void snapshots(void) {
+    const locus_point32 record = point(48, 2, 0, 0);
+    locus_pmq_query query;
+    locus_pmq_snapshot *snapshot = NULL;
+    locus_pmq *pmq = NULL;
+    uint64_t count = 0;
+    WORKS(locus_pmq_query_init(&query, sizeof query));
+    CHECK(query.snapshot == NULL);
+    WORKS(locus_pmq_create(NULL, &pmq));
+    WORKS(locus_pmq_insert(pmq, &record, 1, 0));
+    WORKS(locus_pmq_snapshot_create(pmq, &snapshot));
+    WORKS(locus_pmq_erase(pmq, NULL, NULL));
+    query.snapshot = snapshot;
+    WORKS(locus_pmq_count(pmq, &query, &count));
+    CHECK(count == 1);
+    REFUSES(locus_pmq_erase(pmq, &query, NULL), LOCUS_E_ARGUMENT, "query.snapshot");
+    REFUSES(locus_pmq_snapshot_create(NULL, &snapshot), LOCUS_E_ARGUMENT, "pmq");
+    CHECK(snapshot == NULL);
+    REFUSES(locus_pmq_snapshot_create(pmq, NULL), LOCUS_E_ARGUMENT, "snapshot");
+    locus_pmq_destroy(pmq);
+    locus_pmq_snapshot_destroy((locus_pmq_snapshot *)query.snapshot); /* may outlive its store */
+    locus_pmq_snapshot_destroy(NULL);
+}
+
 int main(void) {
     locus_pmq *pmq = NULL;
+    snapshots();
     defaults();
     keys();
     bad_options();

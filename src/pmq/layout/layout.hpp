@@ -82,6 +82,13 @@ public:
                       FunctionRef<bool(const Block &)> visit) const = 0;
 };
 
+// A moment kept for several queries.
+class Snapshot {
+public:
+    virtual ~Snapshot() = default;
+    virtual std::shared_ptr<const View> view() const = 0; // throws Error(LOCUS_E_STALE) once its memory was needed
+};
+
 // A batch in order of arrival, checked, with its keys.
 struct Batch {
     Bytes records;
@@ -101,6 +108,7 @@ struct LayoutStats {
 struct Limits {
     uint64_t records = UINT64_MAX; // that are live
     uint64_t bytes = UINT64_MAX;
+    uint64_t snapshot_bytes = UINT64_MAX; // that are kept for snapshots alone; beyond, the oldest one turns stale
 };
 
 // One thread at a time calls these. Each is all or nothing: when it throws (std::bad_alloc), store and departures are
@@ -116,8 +124,12 @@ public:
     // Let go of the records that the selection accepts.
     virtual void erase(const Selection &selection, Departures &departures) = 0;
 
-    // The current moment, to be asked until the next change.
+    // The current moment. Any thread; to be asked while the view is held, or, where `views_last` is false, until the
+    // next change.
     virtual std::shared_ptr<const View> view() const = 0;
+    virtual bool views_last() const noexcept { return false; }
+    // Throws Error(LOCUS_E_UNSUPPORTED) where views do not last.
+    virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
     virtual LayoutStats stats() const = 0;
     // Verify every invariant; throws Error(LOCUS_E_INTERNAL) with what is broken.
     virtual void check() const = 0;

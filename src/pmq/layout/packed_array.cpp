@@ -2,6 +2,7 @@
 // allocated; then the windows are rewritten, which cannot fail.
 #include "pmq/layout/packed_array.hpp"
 
+#include "core/error.hpp"
 #include "pmq/departures.hpp"
 #include "pmq/eviction.hpp"
 
@@ -244,6 +245,10 @@ void PackedArray::bound_index() noexcept {
 
 std::shared_ptr<const View> PackedArray::view() const {
     return std::shared_ptr<const View>(std::shared_ptr<const void>(), this); // lives as long as the array
+}
+
+std::shared_ptr<const Snapshot> PackedArray::snapshot() const {
+    fail(LOCUS_E_UNSUPPORTED, "options.layout is the packed array, which has no snapshots");
 }
 
 } // namespace locus::pmq

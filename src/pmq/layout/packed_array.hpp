@@ -23,6 +23,7 @@ public:
     void sweep(Eviction &eviction, Departures &departures) override;
     void erase(const Selection &selection, Departures &departures) override;
     std::shared_ptr<const View> view() const override;
+    std::shared_ptr<const Snapshot> snapshot() const override;
     LayoutStats stats() const override;
     void check() const override;
 

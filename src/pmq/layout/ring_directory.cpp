@@ -52,11 +52,13 @@ void Node::insert(size_t i, uint64_t separator, LeafMemory memory) noexcept {
     open_gap(count, i, leaves);
     open_gap(ghosts, i, leaves);
     open_gap(leaf, i, leaves);
+    open_gap(born, i, leaves);
     open_gap(oldest, i, leaves);
     ordered = (ordered & bits_below(i)) | (ordered & ~bits_below(i)) << 1 | uint64_t{1} << i;
     separators[i] = separator;
     head[i] = count[i] = ghosts[i] = 0;
     leaf[i] = memory;
+    born[i] = version;
     oldest[i] = INT64_MAX;
     ++leaves;
 }
@@ -68,6 +70,7 @@ void Node::remove(size_t i) noexcept {
     close_gap(count, i, leaves);
     close_gap(ghosts, i, leaves);
     close_gap(leaf, i, leaves);
+    close_gap(born, i, leaves);
     close_gap(oldest, i, leaves);
     ordered = (ordered & bits_below(i)) | (ordered >> 1 & ~bits_below(i));
     separators[--leaves] = unused;
@@ -80,6 +83,7 @@ void Node::append(const Node &other, size_t from, size_t to) noexcept {
         count[leaves] = other.count[i];
         ghosts[leaves] = other.ghosts[i];
         leaf[leaves] = other.leaf[i];
+        born[leaves] = other.born[i];
         oldest[leaves] = other.oldest[i];
         set_ordered(leaves, other.is_ordered(i));
         total += count[leaves];

@@ -20,6 +20,7 @@ struct alignas(64) Node {
     uint16_t count[fanout];  // entries
     uint16_t ghosts[fanout]; // slots before the head that must not be written yet: a reader may still see their entries
     LeafMemory leaf[fanout];
+    uint64_t born[fanout];  // the change that made the leaf
     int64_t oldest[fanout]; // no entry's time is smaller; INT64_MAX at first
     uint64_t ordered;       // bit i: the times in leaf i never decrease
     uint32_t leaves;

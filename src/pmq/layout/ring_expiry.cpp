@@ -132,13 +132,14 @@ void RingLeaves::apply(const Cut &cut) noexcept {
         return;
     }
     const LeafMemory old = node.leaf[leaf];
+    const uint64_t born = node.born[leaf];
     Target rest{alone_ ? old : cut.fresh, alone_ ? node.head[leaf] : size_t{0}};
     for (size_t i = cut.prefix; i < count; ++i)
         if (!cut.marks[i])
             add(rest, key_at(node, leaf, i), record_at(node, leaf, i));
     counters_.moved += rest.count;
     if (!alone_)
-        retire(old);
+        retire(old, born);
     install(node, leaf, rest);
 }
 

@@ -209,6 +209,7 @@ void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
     }
     Node &node = *directory()[position];
     const LeafMemory old = node.leaf[leaf];
+    const uint64_t born = node.born[leaf];
     Target low{left, alone_ ? node.head[leaf] : size_t{0}}, high{right, 0};
     for (size_t i = 0, count = node.count[leaf]; i < count; ++i) {
         const uint64_t key = key_at(node, leaf, i);
@@ -220,7 +221,7 @@ void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
     install(node, leaf, low);
     install(node, leaf + 1, high);
     if (left != old)
-        retire(old);
+        retire(old, born);
     ++leaf_count_;
     ++structure_;
 }
@@ -233,7 +234,7 @@ void RingLeaves::relocate(size_t position, size_t leaf) {
     for (size_t i = 0, count = node.count[leaf]; i < count; ++i)
         add(target, key_at(node, leaf, i), record_at(node, leaf, i));
     counters_.moved += target.count;
-    retire(node.leaf[leaf]);
+    retire(node.leaf[leaf], node.born[leaf]);
     install(node, leaf, target);
 }
 
@@ -253,6 +254,8 @@ void RingLeaves::add(Target &target, uint64_t key, Bytes record) const noexcept 
 // The target holds what the leaf has held, or a part of it.
 void RingLeaves::install(Node &node, size_t leaf, const Target &target) noexcept {
     node.total -= node.count[leaf];
+    if (node.leaf[leaf] != target.memory)
+        node.born[leaf] = change_;
     node.leaf[leaf] = target.memory;
     node.head[leaf] = static_cast<uint16_t>(target.head);
     node.count[leaf] = static_cast<uint16_t>(target.count);

@@ -43,7 +43,6 @@ void RingLeaves::begin(bool alone) {
     alone_ = versions_.begin(alone, oldest_read_);
     edition_ = versions_.current();
     change_ = edition_->version + 1;
-    collect_garbage();
     if (alone_)
         return;
     expect_garbage(1);
@@ -52,46 +51,83 @@ void RingLeaves::begin(bool alone) {
 
 void RingLeaves::finish() noexcept {
     Edition *before = versions_.current();
+    const uint64_t born = before->version;
     edition_->version = change_;
-    oldest_read_ = versions_.publish(*edition_);
+    versions_.publish(*edition_);
     if (before != edition_)
-        garbage_.push_back({change_, nullptr, nullptr, before}); // expected
+        discard({born, change_, nullptr, nullptr, before});
     collect_garbage();
+    while (garbage_bytes() > limits_.snapshot_bytes && versions_.withdraw_oldest())
+        for (size_t left = garbage_.size() + 1; left > garbage_.size() && !garbage_.empty();) {
+            left = garbage_.size();
+            collect_garbage();
+        }
 }
 
-// Nobody can see what was taken out by the oldest version that is still read.
+// Free what no reader can see. A few more things are looked at than have come, so that none waits long.
 void RingLeaves::collect_garbage() noexcept {
-    std::erase_if(garbage_, [this](const Garbage &thing) {
-        if (thing.version > oldest_read_)
-            return false;
-        if (thing.leaf)
-            slabs_.give_back(thing.leaf);
-        if (thing.node)
-            spare(thing.node);
-        delete thing.edition;
-        return true;
-    });
+    if (garbage_.empty())
+        return;
+    try {
+        versions_.readers(readers_);
+    } catch (const std::bad_alloc &) {
+        return; // later
+    }
+    constexpr size_t steady = 1024;
+    for (size_t budget = discarded_ + steady; budget > 0 && !garbage_.empty(); --budget) {
+        if (garbage_next_ == 0)
+            garbage_next_ = garbage_.size();
+        Garbage &thing = garbage_[--garbage_next_];
+        const auto reader = std::lower_bound(readers_.begin(), readers_.end(), thing.born);
+        if (reader != readers_.end() && *reader < thing.retired)
+            continue;
+        free_garbage(thing);
+        thing = garbage_.back();
+        garbage_.pop_back();
+        garbage_next_ = std::min(garbage_next_, garbage_.size());
+    }
+    discarded_ = 0;
 }
 
-// Make sure that so many things can be retired without failing, and the old edition.
+void RingLeaves::free_garbage(const Garbage &thing) noexcept {
+    if (thing.leaf) {
+        slabs_.give_back(thing.leaf);
+        --garbage_leaves_;
+    }
+    if (thing.node)
+        spare(thing.node);
+    delete thing.edition;
+}
+
+uint64_t RingLeaves::garbage_bytes() const noexcept {
+    return garbage_leaves_ * shape_.bytes() + (garbage_.size() - garbage_leaves_) * sizeof(Node);
+}
+
+// Make sure that so many things can be discarded without failing, and the old edition.
 void RingLeaves::expect_garbage(size_t things) {
     const size_t wanted = garbage_.size() + things + 1;
     if (garbage_.capacity() < wanted)
         garbage_.reserve(2 * wanted);
 }
 
-void RingLeaves::retire(LeafMemory leaf) noexcept {
+void RingLeaves::discard(const Garbage &thing) noexcept {
+    garbage_.push_back(thing); // expected
+    garbage_leaves_ += thing.leaf != nullptr;
+    ++discarded_;
+}
+
+void RingLeaves::retire(LeafMemory leaf, uint64_t born) noexcept {
     if (alone_)
         slabs_.give_back(leaf);
     else
-        garbage_.push_back({change_, leaf, nullptr, nullptr}); // expected
+        discard({born, change_, leaf, nullptr, nullptr});
 }
 
 void RingLeaves::retire(Node *node) noexcept {
     if (alone_)
         spare(node);
     else
-        garbage_.push_back({change_, nullptr, node, nullptr}); // expected
+        discard({node->version, change_, nullptr, node, nullptr});
 }
 
 Node *RingLeaves::take_node() {
@@ -138,6 +174,10 @@ Node &RingLeaves::own(size_t position) {
 
 std::shared_ptr<const View> RingLeaves::view() const {
     return std::make_shared<PinnedView>(versions_, format_, shape_);
+}
+
+std::shared_ptr<const Snapshot> RingLeaves::snapshot() const {
+    return std::make_shared<RingSnapshot>(versions_, format_, shape_);
 }
 
 LayoutStats RingLeaves::stats() const {

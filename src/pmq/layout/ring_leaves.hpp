@@ -25,6 +25,8 @@ public:
     void sweep(Eviction &eviction, Departures &departures) override;
     void erase(const Selection &selection, Departures &departures) override;
     std::shared_ptr<const View> view() const override;
+    bool views_last() const noexcept override { return true; }
+    std::shared_ptr<const Snapshot> snapshot() const override;
     LayoutStats stats() const override;
     void check() const override;
 
@@ -63,8 +65,9 @@ private:
     struct Spot {
         size_t node, leaf;
     };
+    // What readers of the versions born..retired - 1 may still see.
     struct Garbage {
-        uint64_t version; // the first version without it
+        uint64_t born, retired;
         LeafMemory leaf;
         Node *node;
         Edition *edition;
@@ -75,7 +78,10 @@ private:
     void finish() noexcept;
     void collect_garbage() noexcept;
     void expect_garbage(size_t things);
-    void retire(LeafMemory leaf) noexcept;
+    void free_garbage(const Garbage &thing) noexcept;
+    uint64_t garbage_bytes() const noexcept;
+    void discard(const Garbage &thing) noexcept;
+    void retire(LeafMemory leaf, uint64_t born) noexcept;
     void retire(Node *node) noexcept;
     Node *take_node();
     void spare(Node *node) noexcept;
@@ -149,6 +155,9 @@ private:
     uint64_t oldest_read_ = 0;
     bool alone_ = false;
     std::vector<Garbage> garbage_;
+    size_t garbage_leaves_ = 0, garbage_next_ = 0,
+           discarded_ = 0; // the leaves in it; the next to be looked at; new ones
+    std::vector<uint64_t> readers_;
     Node *spare_nodes_ = nullptr;
     size_t nodes_ = 0, spares_ = 0;
     uint64_t structure_ = 0; // counts changes of the directory: positions found before are void

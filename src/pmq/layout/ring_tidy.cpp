@@ -32,7 +32,7 @@ void RingLeaves::tidy_all() noexcept {
 // Take an empty leaf out; the one before, or for the first the one behind, takes over its keys.
 void RingLeaves::drop_leaf(Node &node, size_t leaf) noexcept {
     const uint64_t separator = node.separators[leaf];
-    retire(node.leaf[leaf]);
+    retire(node.leaf[leaf], node.born[leaf]);
     node.remove(leaf);
     if (leaf == 0)
         node.separators[0] = separator;
@@ -54,7 +54,7 @@ void RingLeaves::merge_leaves(size_t position, size_t leaf) {
     merge_in_time(target, node, leaf, leaf + 1);
     counters_.moved += target.count;
     ++counters_.rebalances;
-    retire(node.leaf[leaf]);
+    retire(node.leaf[leaf], node.born[leaf]);
     install(node, leaf, target);
     node.total -= node.count[leaf + 1];
     node.count[leaf + 1] = 0;

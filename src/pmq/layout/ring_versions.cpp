@@ -1,6 +1,8 @@
 // The meeting point of the writer and its readers: one mutex, held for a few instructions.
 #include "pmq/layout/ring_versions.hpp"
 
+#include "core/error.hpp"
+
 namespace locus::pmq {
 
 const Edition &Versions::pin() {
@@ -10,11 +12,45 @@ const Edition &Versions::pin() {
     return *current_;
 }
 
+const Edition &Versions::pin(const Hold &hold) {
+    const std::lock_guard lock(mutex_);
+    if (hold.withdrawn)
+        fail(LOCUS_E_STALE, "the snapshot's memory went beyond options.snapshot_bytes");
+    ++readers_[hold.version];
+    return *hold.edition;
+}
+
 void Versions::unpin(uint64_t version) noexcept {
     const std::lock_guard lock(mutex_);
+    drop_reader(version);
+}
+
+void Versions::drop_reader(uint64_t version) noexcept {
     const auto at = readers_.find(version);
     if (--at->second == 0)
         readers_.erase(at);
+}
+
+void Versions::hold(Hold &hold) {
+    std::unique_lock lock(mutex_);
+    change_ended_.wait(lock, [this] { return !alone_; });
+    holds_.push_back(&hold);
+    try {
+        ++readers_[current_->version];
+    } catch (...) {
+        holds_.pop_back();
+        throw;
+    }
+    hold.edition = current_;
+    hold.version = current_->version;
+}
+
+void Versions::release(Hold &hold) noexcept {
+    const std::lock_guard lock(mutex_);
+    if (hold.withdrawn)
+        return;
+    holds_.remove(&hold);
+    drop_reader(hold.version);
 }
 
 bool Versions::begin(bool alone, uint64_t &oldest_read) noexcept {
@@ -24,16 +60,31 @@ bool Versions::begin(bool alone, uint64_t &oldest_read) noexcept {
     return alone_;
 }
 
-uint64_t Versions::publish(Edition &edition) noexcept {
-    uint64_t oldest_read;
+void Versions::publish(Edition &edition) noexcept {
     {
         const std::lock_guard lock(mutex_);
         current_ = &edition;
         alone_ = false;
-        oldest_read = readers_.empty() ? edition.version : readers_.begin()->first;
     }
     change_ended_.notify_all();
-    return oldest_read;
+}
+
+void Versions::readers(std::vector<uint64_t> &versions) const {
+    const std::lock_guard lock(mutex_);
+    versions.clear();
+    for (const auto &[version, count] : readers_)
+        versions.push_back(version);
+}
+
+bool Versions::withdraw_oldest() noexcept {
+    const std::lock_guard lock(mutex_);
+    if (holds_.empty())
+        return false;
+    Hold *oldest = holds_.front();
+    holds_.pop_front();
+    oldest->withdrawn = true;
+    drop_reader(oldest->version);
+    return true;
 }
 
 } // namespace locus::pmq

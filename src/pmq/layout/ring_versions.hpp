@@ -6,8 +6,10 @@
 #include "pmq/layout/ring_directory.hpp"
 
 #include <condition_variable>
+#include <list>
 #include <map>
 #include <mutex>
+#include <vector>
 
 namespace locus::pmq {
 
@@ -21,21 +23,38 @@ struct Edition {
 
 class Versions {
 public:
-    // Readers: hold the current edition until unpin(its version).
+    // A reader's claim to a version for more than one call. The writer may withdraw it, between calls.
+    struct Hold {
+        const Edition *edition = nullptr;
+        uint64_t version = 0;
+        bool withdrawn = false;
+    };
+
+    // Readers: the current edition, or that of a hold, until unpin(its version). Throws Error(LOCUS_E_STALE) for a hold
+    // that was withdrawn.
     const Edition &pin();
+    const Edition &pin(const Hold &hold);
     void unpin(uint64_t version) noexcept;
+    void hold(Hold &hold);
+    void release(Hold &hold) noexcept;
 
     // The writer: start a change, alone if nobody reads and that is wanted. The oldest version that may be read until
     // the next start is stored in `oldest_read`.
     bool begin(bool alone, uint64_t &oldest_read) noexcept;
-    uint64_t publish(Edition &edition) noexcept; // the oldest version that may be read from now on
+    void publish(Edition &edition) noexcept;
+    // The versions that are read, ascending. Later readers come to the current one.
+    void readers(std::vector<uint64_t> &versions) const;
+    bool withdraw_oldest() noexcept; // false: there are no holds
     // The current edition. For the writer only.
     Edition *current() const noexcept { return current_; }
 
 private:
-    std::mutex mutex_;
+    void drop_reader(uint64_t version) noexcept;
+
+    mutable std::mutex mutex_;
     std::condition_variable change_ended_;
     std::map<uint64_t, size_t> readers_; // per version
+    std::list<Hold *> holds_;            // the oldest first
     bool alone_ = false;
     Edition *current_ = nullptr;
 };

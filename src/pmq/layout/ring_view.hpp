@@ -57,11 +57,13 @@ private:
     const LeafShape &shape_;
 };
 
-// The current version, held while the view lives.
+// A version that is held while the view lives.
 class PinnedView final : public RingView {
 public:
     PinnedView(Versions &versions, const RecordFormat &format, const LeafShape &shape)
         : PinnedView(versions, versions.pin(), format, shape) {}
+    PinnedView(Versions &versions, const Versions::Hold &hold, const RecordFormat &format, const LeafShape &shape)
+        : PinnedView(versions, versions.pin(hold), format, shape) {}
     ~PinnedView() override { versions_.unpin(version_); }
     PinnedView(const PinnedView &) = delete;
     PinnedView &operator=(const PinnedView &) = delete;
@@ -72,6 +74,26 @@ private:
 
     Versions &versions_;
     uint64_t version_;
+};
+
+class RingSnapshot final : public Snapshot {
+public:
+    RingSnapshot(Versions &versions, const RecordFormat &format, const LeafShape &shape)
+        : versions_(versions), format_(format), shape_(shape) {
+        versions_.hold(hold_);
+    }
+    ~RingSnapshot() override { versions_.release(hold_); }
+    RingSnapshot(const RingSnapshot &) = delete;
+    RingSnapshot &operator=(const RingSnapshot &) = delete;
+    std::shared_ptr<const View> view() const override {
+        return std::make_shared<PinnedView>(versions_, hold_, format_, shape_);
+    }
+
+private:
+    Versions &versions_;
+    const RecordFormat &format_;
+    const LeafShape &shape_;
+    Versions::Hold hold_;
 };
 
 } // namespace locus::pmq
