@@ -1,9 +1,11 @@
 // volume: any volume file and a transfer table in; Voronoi diagram, distances, pictures and volumes out.
+#include "volume/deform.hpp"
 #include "volume/model.hpp"
 #include "volume/options.hpp"
 #include "volume/pictures.hpp"
 #include "volume/slices.hpp"
 #include "volume/text.hpp"
+#include "volume/weights.hpp"
 
 #include "common/progress.hpp"
 
@@ -78,6 +80,28 @@ void summarize_result(const Material &material, const Result &result) {
                      with_commas(result.pairs.size()) + " pairs touch");
 }
 
+void show_weights(const Options &options, const Input &input, const Material &material, const Result &result,
+                  const Slicer &slicer) {
+    const Diagram diagram = solve_again(options, material.graph.get(), result.seeds);
+    draw_weights(options.out + "/weights.png", options, input, result, slicer, diagram.get());
+    row("weights", write_weights(options.out, input, result, diagram.get()));
+}
+
+bool show_deformation(const Options &options, const Input &input, const Material &material, const Result &result,
+                      const Slicer &slicer) {
+    const Deformation shapes = deform(options, input, material, result, slicer);
+    draw_deformation(options.out + "/deform.png", options, input, material, result, slicer, shapes);
+    const auto percent = [](double part) { return short_number(100 * part) + " %"; };
+    row("deformed", "stiff material strained by at most " + percent(shapes.uniform.stretch) +
+                        " with weights of uniform distances, " + percent(shapes.compliance.stretch) +
+                        " with those of compliance");
+    if (shapes.cut)
+        row("cut", demo::with_commas(shapes.changed) + " rows of weights changed, updated in " +
+                       demo::duration_text(shapes.seconds_update) + " (made anew: " +
+                       demo::duration_text(shapes.seconds_fresh) + (shapes.same ? ", the same)" : ", THEY DIFFER)"));
+    return shapes.same;
+}
+
 int run(const Options &options) {
     const auto begin = std::chrono::steady_clock::now();
     std::filesystem::create_directories(options.out);
@@ -100,6 +124,14 @@ int run(const Options &options) {
                          (traced.same_labels ? "labels the same" : "LABELS DIFFER"));
         same = traced.same_labels;
         pictures += " trace.png";
+    }
+    if (options.weights) {
+        show_weights(options, input, material, result, slicer);
+        pictures += " weights.png";
+    }
+    if (!options.motions.empty()) {
+        same = show_deformation(options, input, material, result, slicer) && same;
+        pictures += " deform.png";
     }
     write_volumes(options.out, input, result);
     write_seeds(options.out + "/seeds.txt", result.seeds);

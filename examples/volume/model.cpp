@@ -2,7 +2,7 @@
 #include "volume/model.hpp"
 
 #include "common/canvas.hpp"
-#include "common/progress.hpp"
+#include "volume/call.hpp"
 #include "volume/text.hpp"
 
 #include <algorithm>
@@ -13,15 +13,6 @@
 
 namespace volume {
 namespace {
-
-struct Call { // a progress bar for a call of the library
-    explicit Call(const std::string &title) : bar(title) {}
-    static int32_t at(double fraction, void *call) {
-        static_cast<Call *>(call)->bar.at(fraction, "");
-        return 0;
-    }
-    demo::Progress bar;
-};
 
 Diagram make_diagram(locus_graph *graph, uint32_t engine, bool record_trace) {
     locus_diagram_options wanted;
@@ -196,6 +187,14 @@ Result solve(const Options &options, const Input &input, locus_graph *graph) {
     check(locus_diagram_solve(diagram.get(), Call::at, &call));
     copy_out(input, diagram.get(), result);
     return result;
+}
+
+Diagram solve_again(const Options &options, locus_graph *graph, const std::vector<locus_seed> &seeds) {
+    Diagram diagram = make_diagram(graph, options.engine, false);
+    check(locus_diagram_add_seeds(diagram.get(), seeds.data(), seeds.size()));
+    Call call("solving");
+    check(locus_diagram_solve(diagram.get(), Call::at, &call));
+    return diagram;
 }
 
 Trace trace(const Input &input, locus_graph *graph, const Result &result) {

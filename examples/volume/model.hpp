@@ -3,6 +3,9 @@
 
 #include "volume/options.hpp"
 
+#include <locus/weights.h>
+
+#include <array>
 #include <limits>
 #include <memory>
 #include <string>
@@ -14,10 +17,12 @@ struct Destroy {
     void operator()(locus_volume *volume) const { locus_volume_destroy(volume); }
     void operator()(locus_graph *graph) const { locus_graph_destroy(graph); }
     void operator()(locus_diagram *diagram) const { locus_diagram_destroy(diagram); }
+    void operator()(locus_weights *weights) const { locus_weights_destroy(weights); }
 };
 using Volume = std::unique_ptr<locus_volume, Destroy>;
 using Graph = std::unique_ptr<locus_graph, Destroy>;
 using Diagram = std::unique_ptr<locus_diagram, Destroy>;
+using Weights = std::unique_ptr<locus_weights, Destroy>;
 
 // Throw std::runtime_error with the library's text unless the status is LOCUS_OK.
 void check(locus_status status);
@@ -29,6 +34,9 @@ struct Input {
     const float *values() const { return static_cast<const float *>(locus_volume_data(volume.get())); }
     uint64_t voxels() const { return info.dims[0] * info.dims[1] * info.dims[2]; }
 };
+inline size_t index_of(const Input &input, const std::array<uint64_t, 3> &voxel) {
+    return static_cast<size_t>(voxel[0] + input.info.dims[0] * (voxel[1] + input.info.dims[1] * voxel[2]));
+}
 Input read_input(const Options &options);
 
 struct Material {
@@ -59,6 +67,9 @@ struct Result {
     double seconds_place = 0;
 };
 Result solve(const Options &options, const Input &input, locus_graph *graph);
+
+// A solved diagram with these seeds.
+Diagram solve_again(const Options &options, locus_graph *graph, const std::vector<locus_seed> &seeds);
 
 // Active voxels per iteration of the thesis' algorithm (section 2.4), and whether it gave the same labels.
 struct Trace {

@@ -2,9 +2,11 @@
 #include "volume/options.hpp"
 
 #include "volume/model.hpp"
+#include "volume/text.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -34,6 +36,7 @@ constexpr const char *footer =
     "Examples:\n"
     "  volume head.nii.gz --map 'range -300 226 1e4; range 226 inf 1e9' --place 32 --anatomy --out head\n"
     "  volume parts.nrrd --table stiffness.txt --seeds frames.txt --out parts\n"
+    "  volume parts.nrrd --table stiffness.txt --seeds frames.txt --weights --deform 2 -1.5 0 20 --cut 30 0 0 1 20 9\n"
     "  volume ct.dat --raw 256 256 108 --raw-type int16 --raw-spacing 1 1 1.5 --map 'range -300 inf 1' --place 8\n";
 
 const std::map<std::string, uint32_t> types{{"uint8", LOCUS_VOXEL_UINT8},     {"int8", LOCUS_VOXEL_INT8},
@@ -63,6 +66,21 @@ CLI::Option *choice(CLI::App &app, const std::string &name, uint32_t &value, con
         ->check(CLI::IsMember(names));
 }
 
+std::vector<Motion> motions_of(const std::vector<double> &numbers) {
+    if (numbers.size() % 4 != 0)
+        throw std::runtime_error("--deform takes four numbers a seed, not " + std::to_string(numbers.size()));
+    std::vector<Motion> motions;
+    for (size_t i = 0; i < numbers.size(); i += 4) {
+        if (!(numbers[i] >= 0 && numbers[i] < LOCUS_NO_SEED) || numbers[i] != std::floor(numbers[i]))
+            throw std::runtime_error("--deform: " + short_number(numbers[i]) + " is no seed's id");
+        for (size_t k = 1; k < 4; ++k)
+            if (!std::isfinite(numbers[i + k]))
+                throw std::runtime_error("--deform: " + short_number(numbers[i + k]) + " is no length or angle");
+        motions.push_back({static_cast<uint32_t>(numbers[i]), numbers[i + 1], numbers[i + 2], numbers[i + 3]});
+    }
+    return motions;
+}
+
 } // namespace
 
 std::optional<int> parse_options(int count, char **words, Options &options) {
@@ -72,8 +90,8 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
     app.footer(footer);
     app.get_formatter()->column_width(36);
 
-    std::vector<uint64_t> dims, slice;
-    std::vector<double> spacing, window;
+    std::vector<uint64_t> dims, slice, cut;
+    std::vector<double> spacing, window, motions;
     std::string map, table, seeds_file;
     double memory_gib = 8;
     bool big_endian = false, no_trace = false;
@@ -120,6 +138,19 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
         ->capture_default_str();
     app.add_flag("--anatomy", options.anatomy, "the volume is of a body: name the slices and their sides so");
     app.add_flag("--no-trace", no_trace, "skip the picture of active voxels per iteration");
+    app.add_flag("-w,--weights", options.weights,
+                 "also the seeds' interpolation weights: weights.png over the first slice, by three methods, and, of "
+                 "Sibson's method and small volumes, weights.nrrd");
+    app.add_option("--weight-seeds", options.weight_seeds, "ids of the seeds in weights.png; default: the first three");
+    auto *deform = app.add_option("--deform", motions,
+                                  "also deform.png: the first slice moved by its seeds' frames. ID RIGHT DOWN DEGREES "
+                                  "shift and turn a seed's frame, once or for several seeds; the others stay")
+                       ->type_name("ID RIGHT DOWN DEGREES ...")
+                       ->expected(4, 400);
+    app.add_option("--cut", cut, "also the deformation after a cut: voxels X Y Z NX NY NZ removed")
+        ->type_name("X Y Z NX NY NZ")
+        ->expected(6)
+        ->needs(deform);
     try {
         app.parse(count, words);
         if (map.empty() && table.empty())
@@ -146,6 +177,9 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
     if (!window.empty())
         options.window = {window[0], window[1]};
     options.trace = !no_trace;
+    options.motions = motions_of(motions);
+    if (!cut.empty())
+        options.cut = {{cut[0], cut[1], cut[2]}, {cut[3], cut[4], cut[5]}};
     if (options.title.empty())
         options.title = options.input.substr(options.input.rfind('/') + 1);
     return std::nullopt;

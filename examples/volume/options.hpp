@@ -13,6 +13,12 @@
 
 namespace volume {
 
+// A seed's frame moved within the picture of the first slice: shifted (units of length) and turned (clockwise).
+struct Motion {
+    uint32_t id;
+    double right, down, degrees;
+};
+
 struct Options {
     std::string input;
     std::string out = "volume-out";
@@ -35,6 +41,10 @@ struct Options {
     int width = 1460;                            // of the three slices together, in pixels
     bool anatomy = false;
     bool trace = true;
+    bool weights = false;               // draw and write them
+    std::vector<uint32_t> weight_seeds; // those drawn; none: the first few
+    std::vector<Motion> motions;        // of the deformation; none: it is left out
+    std::optional<locus_voxel_box> cut; // through the deformed object
 };
 
 // Parse the command line; prints the help or what is wrong and returns the exit status where the program must end.

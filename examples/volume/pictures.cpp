@@ -3,6 +3,7 @@
 
 #include "common/canvas.hpp"
 #include "common/colour_map.hpp"
+#include "volume/panels.hpp"
 #include "volume/text.hpp"
 
 #include <algorithm>
@@ -16,40 +17,25 @@ using demo::Canvas;
 using demo::Colour;
 using demo::Font;
 
-constexpr Colour paper{16, 17, 20}, ink{232, 232, 232}, faint{150, 152, 158}, black{0, 0, 0}, white{255, 255, 255};
 constexpr int margin = 28, gap = 36, head = 68, foot = 62;
 constexpr double most_height = 0.6; // of a slice, in widths of the three
 constexpr int contours = 10;        // about as many lines over the range of distances
 
 // What a sheet shows, settled once for all its pixels.
 struct Look {
-    double dark, bright; // grey window
-    double unit;         // shown distance = distance * unit
-    double range, step;  // shown distances: end of the colour map, between contour lines
+    GreyWindow grey;
+    double unit;        // shown distance = distance * unit
+    double range, step; // shown distances: end of the colour map, between contour lines
 };
-
-double percentile(std::vector<float> &numbers, double part) {
-    if (numbers.empty())
-        return 0;
-    const auto place = numbers.begin() + static_cast<ptrdiff_t>(part * static_cast<double>(numbers.size() - 1));
-    std::ranges::nth_element(numbers, place);
-    return double{*place};
-}
 
 Look look_at(const Options &options, const Input &input, const Material &material, const Result &result) {
     const size_t stride = std::max<size_t>(1, result.labels.size() / 1'000'000); // a sample is enough for percentiles
-    std::vector<float> greys, distances;
-    for (size_t i = 0; i < result.labels.size(); i += stride) {
-        if (std::isfinite(input.values()[i]))
-            greys.push_back(input.values()[i]);
+    std::vector<float> distances;
+    for (size_t i = 0; i < result.labels.size(); i += stride)
         if (result.labels[i] != LOCUS_NO_SEED)
             distances.push_back(result.distances[i]);
-    }
     Look look{};
-    look.dark = options.window ? (*options.window)[0] : percentile(greys, 0.01);
-    look.bright = options.window ? (*options.window)[1] : percentile(greys, 0.99);
-    if (!(look.bright > look.dark))
-        look.bright = look.dark + 1;
+    look.grey = GreyWindow(options, input);
     look.unit = material.softest;
     look.range = std::max(percentile(distances, 0.995) * look.unit, 1e-30);
     look.step = round_step(look.range, contours);
@@ -82,11 +68,9 @@ Canvas draw_panel(const Slicer &slicer, const Slice &slice, const Look &look, co
         for (int x = 0; x < width; ++x) {
             const auto grid = slicer.grid_at(slice, (x + 0.5) / scale, (y + 0.5) / scale);
             Pixel &pixel = at(x, y);
-            const double value = double{slicer.value(slice, grid)};
-            const double light = std::isfinite(value) ? (value - look.dark) / (look.bright - look.dark) : 0;
-            pixel.grey = demo::colour_of(demo::ColourMap::grey, light);
+            pixel.grey = demo::colour_of(demo::ColourMap::grey, look.grey.light(slicer.value(slice, grid)));
             pixel.label = result.labels[slicer.nearest(grid)];
-            const auto distance = slicer.distance(slice, grid);
+            const auto distance = slicer.between(slice, grid, [&](size_t voxel) { return result.distances[voxel]; });
             pixel.reached = distance.has_value();
             pixel.distance = double{distance.value_or(0)} * look.unit;
         }
@@ -109,38 +93,6 @@ Canvas draw_panel(const Slicer &slicer, const Slice &slice, const Look &look, co
             canvas.set(x, y, colour);
         }
     return canvas;
-}
-
-// Half the size, four pixels averaged into one: smooth lines.
-Canvas halved(const Canvas &large) {
-    Canvas small(std::max(1, large.width() / 2), std::max(1, large.height() / 2), paper);
-    for (int y = 0; y < small.height(); ++y)
-        for (int x = 0; x < small.width(); ++x) {
-            const int right = std::min(2 * x + 1, large.width() - 1), below = std::min(2 * y + 1, large.height() - 1);
-            const Colour top = demo::mix(large.at(2 * x, 2 * y), large.at(right, 2 * y), 0.5);
-            const Colour bottom = demo::mix(large.at(2 * x, below), large.at(right, below), 0.5);
-            small.set(x, y, demo::mix(top, bottom, 0.5));
-        }
-    return small;
-}
-
-// Seeds near the slice, where their cells meet it: no farther off than a twentieth of the volume, or two voxels.
-void draw_seeds(Canvas &canvas, const Slicer &slicer, const Slice &slice, const Input &input, const Result &result,
-                double scale) {
-    const double reach = std::max(2.0, 0.05 * static_cast<double>(input.info.dims[slice.through]));
-    for (const locus_seed &seed : result.seeds) {
-        const std::array<uint64_t, 3> voxel{seed.x, seed.y, seed.z};
-        const double off = std::abs(static_cast<double>(voxel[slice.through]) - static_cast<double>(slice.at));
-        const auto place = slicer.place_of(slice, voxel);
-        if (off > reach || result.labels[slicer.nearest(slicer.grid_at(slice, place[0], place[1]))] != seed.id)
-            continue;
-        canvas.disc(place[0] * scale, place[1] * scale, 4.5, black);
-        canvas.disc(place[0] * scale, place[1] * scale, 3.2, white);
-    }
-}
-
-void write_centred(Canvas &canvas, int x, int y, const std::string &text, Colour colour, Font font = Font::small) {
-    canvas.text(x - Canvas::text_width(text, font) / 2, y, text, colour, font);
 }
 
 // The name of a panel's side, legible on any ground.
@@ -168,14 +120,6 @@ void annotate(Canvas &sheet, const Slicer &slicer, const Slice &slice, int x, in
     write_side(sheet, x + width / 2, y + 6, slice.top);
     write_side(sheet, x + width / 2, y + height - line - 6, slice.bottom);
     write_centred(sheet, x + width / 2, y + height + 8, slice.title, ink);
-}
-
-// A white bar of round length with its length beside it.
-void draw_scale_bar(Canvas &sheet, int x, int y, double scale, double extent, const std::string &unit) {
-    const double length = round_step(extent, 4);
-    const int pixels = static_cast<int>(std::lround(length * scale));
-    sheet.fill(x, y, pixels, 3, ink);
-    sheet.text(x + pixels + 8, y - Canvas::text_height() / 2 + 1, short_number(length) + unit, ink);
 }
 
 struct Sheet {

@@ -99,10 +99,15 @@ std::array<double, 3> Slicer::grid_at(const Slice &slice, double right, double d
 }
 
 std::array<double, 2> Slicer::place_of(const Slice &slice, const std::array<uint64_t, 3> &voxel) const {
+    return place_of_grid(slice,
+                         {static_cast<double>(voxel[0]), static_cast<double>(voxel[1]), static_cast<double>(voxel[2])});
+}
+
+std::array<double, 2> Slicer::place_of_grid(const Slice &slice, const std::array<double, 3> &grid) const {
     const locus_volume_info &info = input_.info;
     const auto along = [&](size_t axis, bool flipped) {
-        const uint64_t index = flipped ? info.dims[axis] - 1 - voxel[axis] : voxel[axis];
-        return (static_cast<double>(index) + 0.5) * info.spacing[axis];
+        const double index = flipped ? static_cast<double>(info.dims[axis]) - 1 - grid[axis] : grid[axis];
+        return (index + 0.5) * info.spacing[axis];
     };
     return {along(slice.across, slice.across_flipped), along(slice.down, slice.down_flipped)};
 }
@@ -116,40 +121,10 @@ size_t Slicer::nearest(const std::array<double, 3> &grid) const {
     return static_cast<size_t>(voxel[0] + dims[0] * (voxel[1] + dims[1] * voxel[2]));
 }
 
-// use(voxel's index, weight) for the four voxels of the slice around a place.
-template <typename Use>
-void Slicer::around(const Slice &slice, const std::array<double, 3> &grid, Use use) const {
-    for (int corner = 0; corner < 4; ++corner) {
-        std::array<double, 3> voxel = grid;
-        double weight = 1;
-        for (const auto &[axis, upper] : {std::pair{slice.across, corner & 1}, std::pair{slice.down, corner >> 1}}) {
-            const double lower = std::floor(grid[axis]);
-            voxel[axis] = lower + upper;
-            weight *= upper != 0 ? grid[axis] - lower : 1 - (grid[axis] - lower);
-        }
-        use(nearest(voxel), weight);
-    }
-}
-
 float Slicer::value(const Slice &slice, const std::array<double, 3> &grid) const {
     double sum = 0;
     around(slice, grid, [&](size_t voxel, double weight) { sum += weight * double{input_.values()[voxel]}; });
     return static_cast<float>(sum);
-}
-
-std::optional<float> Slicer::distance(const Slice &slice, const std::array<double, 3> &grid) const {
-    if (result_.labels[nearest(grid)] == LOCUS_NO_SEED)
-        return std::nullopt;
-    double sum = 0, weights = 0;
-    around(slice, grid, [&](size_t voxel, double weight) {
-        if (result_.labels[voxel] == LOCUS_NO_SEED)
-            return;
-        sum += weight * double{result_.distances[voxel]};
-        weights += weight;
-    });
-    if (weights <= 0)
-        return result_.distances[nearest(grid)];
-    return static_cast<float>(sum / weights);
 }
 
 } // namespace volume
