@@ -1,8 +1,6 @@
 // Displacements by weights of uniform and of compliance distances, before and after a cut.
 #include "volume/deform.hpp"
 
-#include "volume/call.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -135,7 +133,7 @@ void cut(const Scene &scene, locus_graph *graph, locus_diagram *diagram, locus_w
     check(locus_weights_update(weights, changed.data(), changed.size(), &result.changed));
     result.seconds_update = seconds_since(begin);
     begin = Clock::now();
-    const Weights fresh = make_weights(diagram, LOCUS_METHOD_SIBSON, &scene.plane.box);
+    const Weights fresh = make_weights(diagram, LOCUS_METHOD_SIBSON, &scene.plane.box, nullptr);
     result.seconds_fresh = seconds_since(begin);
     result.same = same_rows(weights, fresh.get());
     result.cut_fresh = shape_of(scene, diagram, weights);
@@ -154,11 +152,11 @@ Deformation deform(const Options &options, const Input &input, const Material &m
     {
         const Material uniform = make_material(geometric, input);
         const Diagram diagram = solve_again(geometric, uniform.graph.get(), result.seeds);
-        const Weights weights = make_weights(diagram.get(), LOCUS_METHOD_SIBSON, &scene.plane.box);
+        const Weights weights = make_weights(diagram.get(), LOCUS_METHOD_SIBSON, &scene.plane.box, nullptr);
         deformation.uniform = shape_of(scene, diagram.get(), weights.get());
     }
     const Diagram diagram = solve_again(options, material.graph.get(), result.seeds);
-    const Weights weights = make_weights(diagram.get(), LOCUS_METHOD_SIBSON, &scene.plane.box);
+    const Weights weights = make_weights(diagram.get(), LOCUS_METHOD_SIBSON, &scene.plane.box, nullptr);
     deformation.rest = shape_of(scene, diagram.get(), nullptr);
     deformation.compliance = shape_of(scene, diagram.get(), weights.get());
     if (options.cut)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace volume {
 namespace {
@@ -159,7 +160,7 @@ void draw_frames(Canvas &canvas, const Stage &stage, bool at_rest) {
         const Place to = stage.pixel({rest[0] + motion->right, rest[1] + motion->down}, stage.scale);
         canvas.line(from[0], from[1], to[0], to[1], black);
         canvas.disc(from[0], from[1], 2.5, black);
-        const double angle = motion->degrees * 3.14159265358979 / 180, c = 14 * std::cos(angle),
+        const double angle = motion->degrees * std::numbers::pi / 180, c = 14 * std::cos(angle),
                      s = 14 * std::sin(angle);
         canvas.line(to[0] - c, to[1] - s, to[0] + c, to[1] + s, black);
         canvas.line(to[0] + s, to[1] - c, to[0] - s, to[1] + c, black);

@@ -80,7 +80,7 @@ void draw_weights(const std::string &path, const Options &options, const Input &
     Frame frame{slicer, slice, input, result, {}, 0};
     frame.view = view_of(slicer, slice, input, result, room * input.info.spacing[slice.across]);
     const int columns = static_cast<int>(ids.size()), rows = static_cast<int>(methods.size());
-    const int width = std::max(60, (options.width - (columns - 1) * gap) / columns);
+    const int width = std::max(60, (options.width - side - (columns - 1) * gap) / columns);
     frame.scale = width / frame.view.width;
     const int height = frame.pixels(frame.view.height, frame.scale);
     Canvas sheet(2 * margin + side + columns * (width + gap) - gap, head + rows * (height + gap) + foot, paper);
@@ -95,7 +95,8 @@ void draw_weights(const std::string &path, const Options &options, const Input &
         const Method &method = methods[static_cast<size_t>(row)];
         const int y = head + row * (height + gap);
         sheet.text(margin, y + height / 2 - Canvas::text_height() / 2, method.name, ink);
-        const Weights weights = make_weights(diagram, method.number, &plane.box);
+        Call call(std::string("weights: ") + method.name);
+        const Weights weights = make_weights(diagram, method.number, &plane.box, &call);
         const std::vector<float> numbers = dense(weights.get(), ids);
         for (int column = 0; column < columns; ++column) {
             const auto c = static_cast<size_t>(column);

@@ -1,8 +1,6 @@
 // Weights by the C interface, and the file of all of them.
 #include "volume/weights.hpp"
 
-#include "volume/call.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
@@ -15,13 +13,14 @@ constexpr size_t shown = 3;                          // seeds, where none are as
 
 } // namespace
 
-Weights make_weights(locus_diagram *diagram, uint32_t method, const locus_voxel_box *box) {
-    Call call("weights");
+Weights make_weights(locus_diagram *diagram, uint32_t method, const locus_voxel_box *box, Call *call) {
     locus_weights_options wanted;
     check(locus_weights_options_init(&wanted, sizeof wanted));
     wanted.method = method;
-    wanted.progress = Call::at;
-    wanted.progress_user = &call;
+    if (call != nullptr) {
+        wanted.progress = Call::at;
+        wanted.progress_user = call;
+    }
     locus_weights *weights = nullptr;
     check(locus_weights_create(diagram, &wanted, box, &weights));
     return Weights(weights);
@@ -67,8 +66,9 @@ std::string write_weights(const std::string &folder, const Input &input, const R
     const uint64_t bytes = input.voxels() * result.seeds.size() * sizeof(float);
     if (bytes > most_bytes)
         return "weights.nrrd left out: " + demo::bytes_text(bytes) + ", more than " + demo::bytes_text(most_bytes);
+    Call call("weights of all voxels");
     const auto begin = std::chrono::steady_clock::now();
-    const Weights weights = make_weights(diagram, LOCUS_METHOD_SIBSON, nullptr);
+    const Weights weights = make_weights(diagram, LOCUS_METHOD_SIBSON, nullptr, &call);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::vector<float> components; // one seed's volume after the other
     for (const locus_seed &seed : result.seeds) {

@@ -1,6 +1,7 @@
 // Interpolation weights of the seeds: over one slice for the pictures, over the whole grid for a file.
 #pragma once
 
+#include "volume/call.hpp"
 #include "volume/model.hpp"
 #include "volume/slices.hpp"
 
@@ -19,8 +20,8 @@ constexpr std::array<Method, 3> methods{{{LOCUS_METHOD_SIBSON, "Sibson"},
                                          {LOCUS_METHOD_LAPLACE, "Laplace"},
                                          {LOCUS_METHOD_DISTANCE_RATIO, "distance ratio"}}};
 
-// Rows of the box; NULL: of the whole grid.
-Weights make_weights(locus_diagram *diagram, uint32_t method, const locus_voxel_box *box);
+// Rows of the box; NULL: of the whole grid. The bar (may be NULL) is used by later updates too and must live that long.
+Weights make_weights(locus_diagram *diagram, uint32_t method, const locus_voxel_box *box, Call *call);
 
 // The voxels of a slice as a box, and which of the rows made for that box is a voxel's.
 struct Plane {

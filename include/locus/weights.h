@@ -37,7 +37,7 @@ typedef struct locus_weights_options {
     uint64_t batch_bytes; /* most scratch memory of a call, beside the rows themselves, >= 1 MiB; a call needs at least
                              one batch of 16 queries per thread and takes fewer threads rather than more memory;
                              default 1 GiB */
-    locus_progress_fn progress; /* default NULL */
+    locus_progress_fn progress; /* kept, and called by locus_weights_update too; default NULL */
     void *progress_user;
 } locus_weights_options;
 

@@ -60,10 +60,13 @@ demo-head: $(EXAMPLE_volume) $(HEAD_CT) ## Voronoi cells of 32 seeds in a head C
 	@$(EXAMPLE_volume) $(HEAD_CT) --raw 256 256 108 --raw-type int16 --raw-spacing 0.9570312 0.9570312 1.5 --flip y \
 	    --table examples/volume/head.table --largest-part --place 32 --lloyd 5 --title 'Head CT' --anatomy --window -250 1200 \
 	    --out $(VOLUME_OUT)/head
-demo-steak: $(EXAMPLE_volume) ## Voronoi cells of ten seeds in a T-bone steak, where LOCUS_DATA holds it
+demo-steak: $(EXAMPLE_volume) ## Voronoi cells, weights and a deformation of a T-bone steak, where LOCUS_DATA holds it
 	@if [ -r $(LOCUS_DATA)/steak/steak_64x64x15.mhd ]; then \
 	    $(EXAMPLE_volume) $(LOCUS_DATA)/steak/steak_64x64x15.mhd --table examples/volume/steak.table \
-	        --seeds $(LOCUS_DATA)/steak/seeds_10.txt --title 'T-bone steak' --out $(VOLUME_OUT)/steak; \
+	        --seeds $(LOCUS_DATA)/steak/seeds_10.txt --title 'T-bone steak' --out $(VOLUME_OUT)/steak && \
+	    $(EXAMPLE_volume) $(LOCUS_DATA)/steak/steak_64x64x15.mhd --table examples/volume/steak.table --no-trace --weights \
+	        --seeds $(LOCUS_DATA)/steak/seeds_3.txt --title 'T-bone steak' --out $(VOLUME_OUT)/steak-frames \
+	        --deform 2 -1.2 -0.6 -25 --cut 33 0 0 1 27 15; \
 	else echo "demo-steak: skipped, there is no $(LOCUS_DATA)/steak (set LOCUS_DATA)"; fi
 demo: demo-volume
 
