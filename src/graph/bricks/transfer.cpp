@@ -142,14 +142,18 @@ Exported export_changes(const graph::Graph &graph, const Place &place, const Bri
         Word *to = words + graph.grid().index(x, y, z);
         Word now[kWidth];
         Word reached = 0, changed = 0, gained = 0, lost = 0;
-        for (unsigned i = 0; i < count; ++i) {
-            now[i] = from[i] < unreached ? from[i] : none;
-            const bool before = to[i] != none, after = now[i] != none;
-            reached += after ? 1 : 0;
-            changed += to[i] != now[i] ? 1 : 0;
-            gained += after && !before ? 1 : 0;
-            lost += before && !after ? 1 : 0;
-        }
+        const auto compare = [&](unsigned n) {
+            for (unsigned i = 0; i < n; ++i) {
+                const Word word = from[i] < unreached ? from[i] : none;
+                const Word before = to[i] != none ? 1 : 0, after = word != none ? 1 : 0;
+                now[i] = word;
+                reached += after;
+                changed += to[i] != word ? 1 : 0;
+                gained += after & (before ^ 1);
+                lost += before & (after ^ 1);
+            }
+        };
+        count == kWidth ? compare(kWidth) : compare(count);
         exported.reached += reached;
         if (changed == 0)
             return;
