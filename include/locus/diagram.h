@@ -23,7 +23,9 @@ typedef struct locus_diagram locus_diagram;
 #define LOCUS_ENGINE_HEAP 1   /* Dijkstra with a binary heap: the oracle every other engine is tested against */
 #define LOCUS_ENGINE_BUCKET 2 /* Dijkstra with buckets (Dial 1969), each as wide as the smallest weight, 64 a level */
 #define LOCUS_ENGINE_RELAX 3  /* the thesis' base algorithm, sections 2.4.1 to 2.4.3: relax all active voxels */
-#define LOCUS_ENGINE_BRICKS 4 /* blocks of 14 x 8 x 8 voxels in SIMD registers, on several threads */
+/* Blocks of 14 x 8 x 8 voxels in SIMD registers, on several threads. The diagram keeps 9.2 bytes per voxel (13.8 with
+ * 64-bit words) beside its result, for a grid rounded up to whole blocks, so that updates follow what changes. */
+#define LOCUS_ENGINE_BRICKS 4
 
 /* A seed: a place with an id of the caller's that names it in every result. */
 typedef struct locus_seed {

@@ -125,7 +125,7 @@ locus_diagram_stats Diagram::stats() const {
     stats.seconds_import = report_.seconds_import;
     stats.seconds_solve = report_.seconds_solve;
     stats.seconds_export = report_.seconds_export;
-    stats.bytes += sizeof *this + (seeds_.capacity() + solved_seeds_.capacity()) * sizeof(Seed) +
+    stats.bytes += engine_->bytes() + sizeof *this + (seeds_.capacity() + solved_seeds_.capacity()) * sizeof(Seed) +
                    position_of_slot_.capacity() * sizeof(uint32_t) + report_.trace.capacity() * sizeof(uint64_t);
     stats.engine = engine_->kind();
     stats.threads = report_.threads;

@@ -70,6 +70,8 @@ public:
     // The same words, where `words` are still those of this engine's latest solve or update, of the same graph; engines
     // that can do so look only at what was edited since. The plain way: solve and compare.
     virtual Report update(const Problem &problem, Words &words, Progress &progress, Change &change);
+    // Memory kept from one call to the next.
+    virtual size_t bytes() const { return 0; }
 };
 
 // The engine for a LOCUS_ENGINE_ constant; throws LOCUS_E_ARGUMENT for others.

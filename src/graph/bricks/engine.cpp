@@ -20,6 +20,7 @@ public:
     Report update(const Problem &problem, Words &words, Progress &progress, Change &change) override {
         return with_field(problem.graph, [&](auto &field) { return field.update(problem, words, progress, change); });
     }
+    size_t bytes() const override { return narrow_ ? narrow_->bytes() : wide_ ? wide_->bytes() : 0; }
 
 private:
     template <typename Run>

@@ -20,6 +20,15 @@ Field<Word>::Field(const graph::Graph &graph) : graph_(graph), store_(Layout(gra
         std::fill_n(row.operand, kLanes, recipe_of<Word>(graph).impassable);
 }
 
+template <typename Word>
+size_t Field<Word>::bytes() const {
+    size_t cut = 0;
+    for (const auto &brick : blocked_)
+        cut += sizeof brick + (brick ? sizeof *brick : 0);
+    return store_.bytes() + (schedule_ ? schedule_->bytes() : 0) + cut + sources_.capacity() * sizeof(graph::Source) +
+           anchors_.capacity() * sizeof(Anchor<Word>) + marked_.capacity() * sizeof(RowMask);
+}
+
 // A thread is worth its start for some dozens of bricks.
 template <typename Word>
 unsigned Field<Word>::threads(size_t bricks) const {

@@ -18,6 +18,7 @@ public:
     graph::Report solve(const graph::Problem &problem, graph::Words &words, Progress &progress,
                         graph::Change *change = nullptr);
     graph::Report update(const graph::Problem &problem, graph::Words &words, Progress &progress, graph::Change &change);
+    size_t bytes() const;
 
 private:
     unsigned threads(size_t bricks) const;

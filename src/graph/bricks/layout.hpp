@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
 
 namespace locus::bricks {
 
@@ -21,8 +22,8 @@ inline constexpr uint32_t kOwnLanes = 0x7FFE;
 // Rows of a brick as bits: row (y, z) is bit y + 8 * z.
 using RowMask = uint64_t;
 
-// A row's words and its voxels' compliances side by side: whoever reads the one needs the other.
-// An impassable voxel has compliance +infinity and a word that never falls.
+// A row's words and its voxels' operands (see graph/quantize.hpp) side by side: whoever reads the one needs the other.
+// An impassable voxel's word never falls.
 template <typename Word>
 struct alignas(64) BrickRow {
     Word word[kLanes];
@@ -41,8 +42,14 @@ struct Layout {
 
     explicit Layout(const std::array<uint64_t, 3> &voxels) : dims(voxels) {
         constexpr std::array<uint64_t, 3> size = {kWidth, kSide, kSide};
-        for (size_t a = 0; a < 3; ++a)
-            bricks[a] = static_cast<uint32_t>((dims[a] + size[a] - 1) / size[a]);
+        uint64_t count = 1;
+        for (size_t a = 0; a < 3; ++a) {
+            const uint64_t needed = (dims[a] + size[a] - 1) / size[a];
+            count *= needed; // cannot wrap: a grid has less than 2^40 voxels
+            if (count > std::numeric_limits<int32_t>::max())
+                throw std::bad_alloc(); // 16 TB
+            bricks[a] = static_cast<uint32_t>(needed);
+        }
     }
     size_t count() const { return size_t{bricks[0]} * bricks[1] * bricks[2]; }
     size_t index(uint32_t bx, uint32_t by, uint32_t bz) const {

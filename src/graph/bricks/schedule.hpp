@@ -26,7 +26,6 @@ public:
     // must not be used again.
     void begin(unsigned threads) {
         slot_.assign(threads, Slot{});
-        visits_ = 0;
         seen_ = 0;
         ++run_;
     }
@@ -85,7 +84,7 @@ public:
         changed_.notify_all();
     }
 
-    uint64_t visits() const { return visits_; }
+    size_t bytes() const { return state_.capacity() * sizeof(State) + heap_.capacity() * sizeof(Entry); }
     // Part of the bricks that have been visited; any thread may ask.
     double fraction() const {
         return static_cast<double>(seen_.load(std::memory_order_relaxed)) / static_cast<double>(state_.size());
@@ -137,7 +136,6 @@ private:
             slot_[thread].busy = true;
             slot_[thread].place = place;
             ++running_;
-            ++visits_;
             return taken;
         }
         return std::nullopt;
@@ -177,7 +175,7 @@ private:
     std::vector<State> state_;
     std::vector<Slot> slot_;
     std::vector<Entry> heap_;
-    uint64_t arrivals_ = 0, visits_ = 0, run_ = 0;
+    uint64_t arrivals_ = 0, run_ = 0;
     std::atomic<uint64_t> seen_{0};
     unsigned running_ = 0, idle_ = 0;
     bool stopped_ = false;
