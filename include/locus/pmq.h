@@ -119,6 +119,33 @@ typedef struct locus_box {
     double south, west, north, east;
 } locus_box;
 
+/* The sphere on which distances are measured: the Earth's mean radius in metres (IUGG 1980). */
+#define LOCUS_EARTH_RADIUS 6371008.7714
+
+/* The places at most `radius` metres from a centre along the great circle, border included, across the antimeridian and
+ * the poles: latitude -90..90, longitude -180..180, radius 0..20015114.35, pi times LOCUS_EARTH_RADIUS: half the
+ * globe's circumference. Every longitude at a pole is the same place. Distances are computed in double precision, to a
+ * nanometre or the last digit. */
+typedef struct locus_circle {
+    double latitude, longitude, radius;
+} locus_circle;
+
+typedef struct locus_position {
+    double latitude, longitude;
+} locus_position;
+
+/* Rings with the even-odd rule: a place that an odd number of rings encloses belongs to the polygon, so a ring within
+ * another is a hole. Borders are included, those of holes too, exactly. Edges are straight in longitude and latitude.
+ * Latitudes are -90..90, longitudes -360..360 and span at most 360 degrees: across the antimeridian they run on (170,
+ * 175, 185). Each ring has three vertices or more, its end joins its beginning (a vertex that repeats the one before,
+ * or the first at the end, counts once), and it does not touch itself; two rings may touch in single points, and do not
+ * cross or share parts of edges. */
+typedef struct locus_polygon {
+    const locus_position *vertices; /* of all rings, one ring after the other */
+    const uint64_t *ring_sizes;     /* vertices per ring */
+    uint64_t rings;                 /* number of rings, >= 1 */
+} locus_polygon;
+
 /* Accept a record? Not 0: yes. For queries; called by the thread that asks; must not throw, longjmp or call into the
  * store. */
 typedef int32_t (*locus_filter_fn)(const void *record, void *user);
@@ -130,6 +157,8 @@ typedef int32_t (*locus_visit_fn)(const void *record, void *user);
 /* Where a query looks. */
 #define LOCUS_REGION_ALL 0
 #define LOCUS_REGION_BOX 1
+#define LOCUS_REGION_CIRCLE 2
+#define LOCUS_REGION_POLYGON 3
 
 typedef struct locus_pmq_query {
     uint64_t struct_size;
@@ -142,7 +171,19 @@ typedef struct locus_pmq_query {
     void *filter_user;
     /* Ask this snapshot of the same store instead of the present; default NULL. Not for locus_pmq_erase. */
     const locus_pmq_snapshot *snapshot;
+    locus_circle circle;   /* for LOCUS_REGION_CIRCLE */
+    locus_polygon polygon; /* for LOCUS_REGION_POLYGON; read during the call only */
 } locus_pmq_query;
+
+/* What makes a record good for locus_pmq_topk: near to a place, and young. */
+typedef struct locus_pmq_score {
+    uint64_t struct_size;
+    double latitude;  /* -90..90; default 0 */
+    double longitude; /* -180..180; default 0 */
+    double radius;    /* R, metres, > 0 and at most half the globe, see locus_circle; default 30,000 */
+    double alpha;     /* weight of the distance, 0..1; the age has the rest; default 0.2 */
+    int64_t period;   /* T, microseconds, > 0; default 10,000 s */
+} locus_pmq_score;
 
 typedef struct locus_pmq_stats {
     uint64_t struct_size;
@@ -238,6 +279,26 @@ LOCUS_API locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_que
 LOCUS_API locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y, uint32_t log2_bins,
                                       const locus_pmq_query *query, uint32_t *bins, size_t capacity,
                                       uint64_t *total) LOCUS_NOEXCEPT;
+
+/* Fill a score (of `size` bytes) with the defaults stated at the fields. Errors: LOCUS_E_ARGUMENT. Any thread. Since
+ * 0.1. */
+LOCUS_API locus_status locus_pmq_score_init(locus_pmq_score *score, size_t size) LOCUS_NOEXCEPT;
+
+/* Copy the k live records with the lowest scores, lowest first, ties in the store's order:
+ *   score = alpha * distance / R + (1 - alpha) * (now - time) / T
+ * for great-circle distances up to R and ages up to T at the store's clock. `records` has room for k records, k >= 1;
+ * `scores` (may be NULL) for k numbers; `*count` is how many there are, at most k. `query` (may be NULL) adds a time
+ * window and a filter, which is asked in no particular order; its region must be LOCUS_REGION_ALL. Errors:
+ * LOCUS_E_ARGUMENT, LOCUS_E_MEMORY, LOCUS_E_STALE. Beside readers and the writer. Source: thesis section 3.5.3. Since
+ * 0.1. */
+LOCUS_API locus_status locus_pmq_topk(const locus_pmq *pmq, const locus_pmq_score *score, const locus_pmq_query *query,
+                                      size_t k, void *records, double *scores, size_t *count) LOCUS_NOEXCEPT;
+
+/* The same for the k records nearest to a place, at any distance and age; `distances` (may be NULL) in metres. Since
+ * 0.1. */
+LOCUS_API locus_status locus_pmq_nearest(const locus_pmq *pmq, double latitude, double longitude,
+                                         const locus_pmq_query *query, size_t k, void *records, double *distances,
+                                         size_t *count) LOCUS_NOEXCEPT;
 
 /* Store the statistics; set stats->struct_size first. Errors: LOCUS_E_ARGUMENT. Beside readers and the writer. Since
  * 0.1. */

@@ -2,10 +2,13 @@
 #include "capi/boundary.hpp"
 #include "core/options.hpp"
 #include "pmq/options.hpp"
+#include "pmq/query/circle.hpp"
+#include "pmq/query/polygon.hpp"
 #include "pmq/query/queries.hpp"
+#include "pmq/query/ranking.hpp"
 #include "pmq/store.hpp"
 
-#include <optional>
+#include <memory>
 
 using locus::boundary;
 using locus::need;
@@ -22,12 +25,14 @@ struct locus_pmq_snapshot {
 };
 
 static_assert(sizeof(locus_pmq_options) == 144, "append only; then update the ABI baseline");
-static_assert(sizeof(locus_pmq_query) == 88, "append only; then update the ABI baseline");
+static_assert(sizeof(locus_pmq_query) == 136, "append only; then update the ABI baseline");
+static_assert(sizeof(locus_pmq_score) == 48, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_stats) == 136, "append only; then update the ABI baseline");
 
 namespace {
 
-constexpr size_t first_options_size = 144, first_query_size = 88, first_stats_size = 136;
+constexpr size_t first_score_size = 48;
+constexpr size_t first_options_size = 144, first_query_size = 136, first_stats_size = 136;
 
 locus_pmq_query default_query() noexcept {
     locus_pmq_query query{};
@@ -38,18 +43,31 @@ locus_pmq_query default_query() noexcept {
     return query;
 }
 
+std::unique_ptr<const Region> region_of(const locus_pmq_query &query) {
+    switch (query.region) {
+    case LOCUS_REGION_ALL:
+        return nullptr;
+    case LOCUS_REGION_BOX:
+        return std::make_unique<BoxRegion>(query.box);
+    case LOCUS_REGION_CIRCLE:
+        return std::make_unique<CircleRegion>(query.circle);
+    case LOCUS_REGION_POLYGON:
+        return std::make_unique<PolygonRegion>(query.polygon);
+    default:
+        locus::fail(LOCUS_E_ARGUMENT, "query.region is ", query.region, ", not a LOCUS_REGION_");
+    }
+}
+
 // A caller's query and the region it asks for.
 class Question {
 public:
     explicit Question(const locus_pmq_query *query) {
         const locus_pmq_query whole = locus::read_options(query, default_query(), first_query_size);
-        require(whole.region == LOCUS_REGION_ALL || whole.region == LOCUS_REGION_BOX, "query.region is ", whole.region,
-                ", not a LOCUS_REGION_");
         require(whole.reserved0 == 0, "query.reserved0 is ", whole.reserved0, ", not 0");
         require(whole.time_from <= whole.time_to, "query.time_from is ", whole.time_from, ", after time_to, ",
                 whole.time_to);
-        if (whole.region == LOCUS_REGION_BOX)
-            selection_.region = &box_.emplace(whole.box);
+        region_ = region_of(whole);
+        selection_.region = region_.get();
         selection_.times = {whole.time_from, whole.time_to};
         selection_.filter = whole.filter;
         selection_.filter_user = whole.filter_user;
@@ -68,10 +86,51 @@ public:
     }
 
 private:
-    std::optional<BoxRegion> box_;
+    std::unique_ptr<const Region> region_;
     Selection selection_;
     const locus_pmq_snapshot *snapshot_ = nullptr;
 };
+
+locus_pmq_score default_score() noexcept {
+    locus_pmq_score score{};
+    score.struct_size = sizeof score;
+    score.radius = 30000;
+    score.alpha = 0.2;
+    score.period = 10'000'000'000;
+    return score;
+}
+
+Ranking ranking_of(const locus_pmq_score &score) {
+    check_degrees(score.latitude, 90, "score.latitude");
+    check_degrees(score.longitude, 180, "score.longitude");
+    require(score.radius > 0 && score.radius <= locus::half_globe(), "score.radius is ", score.radius,
+            ", not above 0 and up to ", locus::half_globe(), " metres, half the globe");
+    require(score.alpha >= 0 && score.alpha <= 1, "score.alpha is ", score.alpha, ", not within 0..1");
+    require(score.period > 0, "score.period is ", score.period, ", not above 0");
+    return {{score.latitude, score.longitude}, score.alpha,  score.radius,
+            static_cast<double>(score.period), score.radius, static_cast<uint64_t>(score.period)};
+}
+
+// Copy the best records and their scores to the caller; a query without a region.
+void rank(const locus_pmq *pmq, const Ranking &ranking, const locus_pmq_query *query, size_t k, void *records,
+          double *scores, size_t *count) {
+    need(pmq, "pmq");
+    require(records != nullptr, "records is NULL");
+    need(count, "count");
+    require(k > 0, "k is 0");
+    const Question question(query);
+    require(question.selection().region == nullptr,
+            "query.region is set, not LOCUS_REGION_ALL: a ranking has its own region");
+    const auto view = question.view(*pmq);
+    const std::vector<Ranked> found = best(*view, question.selection(), ranking, k);
+    const size_t size = view->format().size;
+    for (size_t i = 0; i < found.size(); ++i) {
+        std::memcpy(static_cast<std::byte *>(records) + i * size, found[i].record, size);
+        if (scores)
+            scores[i] = found[i].score;
+    }
+    *count = found.size();
+}
 
 // What ran until one of the caller's callbacks stopped it.
 void finished(bool completely, const char *callbacks) {
@@ -205,6 +264,29 @@ locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uin
         const uint64_t sum = tile(*question.view(*pmq), question.selection(), locus::Quadrant::of_tile(zoom, x, y),
                                   log2_bins, {bins, number});
         store_to(total, sum);
+    });
+}
+
+locus_status locus_pmq_score_init(locus_pmq_score *score, size_t size) noexcept {
+    return boundary(__func__, [&] { locus::init_options(score, size, default_score(), first_score_size, "score"); });
+}
+
+locus_status locus_pmq_topk(const locus_pmq *pmq, const locus_pmq_score *score, const locus_pmq_query *query, size_t k,
+                            void *records, double *scores, size_t *count) noexcept {
+    return boundary(__func__, [&] {
+        const auto whole = locus::read_options(&need(score, "score"), default_score(), first_score_size);
+        rank(pmq, ranking_of(whole), query, k, records, scores, count);
+    });
+}
+
+// By distance alone, in metres.
+locus_status locus_pmq_nearest(const locus_pmq *pmq, double latitude, double longitude, const locus_pmq_query *query,
+                               size_t k, void *records, double *distances, size_t *count) noexcept {
+    return boundary(__func__, [&] {
+        check_degrees(latitude, 90, "latitude");
+        check_degrees(longitude, 180, "longitude");
+        const Ranking ranking{{latitude, longitude}, 1, 1, 1, 2 * locus::half_globe(), UINT64_MAX};
+        rank(pmq, ranking, query, k, records, distances, count);
     });
 }
 

@@ -155,7 +155,21 @@ int main(void) {
     FIELD(locus_box, north, 16);
     FIELD(locus_box, east, 24);
 
-    SIZE(locus_pmq_query, 88);
+    SIZE(locus_circle, 24);
+    FIELD(locus_circle, latitude, 0);
+    FIELD(locus_circle, longitude, 8);
+    FIELD(locus_circle, radius, 16);
+
+    SIZE(locus_position, 16);
+    FIELD(locus_position, latitude, 0);
+    FIELD(locus_position, longitude, 8);
+
+    SIZE(locus_polygon, 24);
+    FIELD(locus_polygon, vertices, 0);
+    FIELD(locus_polygon, ring_sizes, 8);
+    FIELD(locus_polygon, rings, 16);
+
+    SIZE(locus_pmq_query, 136);
     FIELD(locus_pmq_query, struct_size, 0);
     FIELD(locus_pmq_query, region, 8);
     FIELD(locus_pmq_query, reserved0, 12);
@@ -165,6 +179,16 @@ int main(void) {
     FIELD(locus_pmq_query, filter, 64);
     FIELD(locus_pmq_query, filter_user, 72);
     FIELD(locus_pmq_query, snapshot, 80);
+    FIELD(locus_pmq_query, circle, 88);
+    FIELD(locus_pmq_query, polygon, 112);
+
+    SIZE(locus_pmq_score, 48);
+    FIELD(locus_pmq_score, struct_size, 0);
+    FIELD(locus_pmq_score, latitude, 8);
+    FIELD(locus_pmq_score, longitude, 16);
+    FIELD(locus_pmq_score, radius, 24);
+    FIELD(locus_pmq_score, alpha, 32);
+    FIELD(locus_pmq_score, period, 40);
 
     SIZE(locus_pmq_stats, 136);
     FIELD(locus_pmq_stats, struct_size, 0);

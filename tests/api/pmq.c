@@ -143,11 +143,17 @@ static int32_t odd_device(const void *record, void *user) {
 
 static void bad_queries(locus_pmq *pmq) {
     const locus_pmq_query region = box(0, 0, 1, 1);
+    const uint64_t four = 4;
+    locus_position ring[4] = {{0, 0}, {2, 2}, {0, 2}, {2, 0}};
+    locus_polygon bow;
     locus_point32 records[8];
     uint32_t bins[4];
     uint64_t number = 0;
     size_t count = 0;
     int calls = 0;
+    bow.vertices = ring;
+    bow.ring_sizes = &four;
+    bow.rings = 1;
     BAD_QUERY(struct_size = 0, "struct_size is 0");
     BAD_QUERY(struct_size = sizeof query - 8, "struct_size");
     BAD_QUERY(region = 99, "region is 99");
@@ -159,6 +165,18 @@ static void bad_queries(locus_pmq *pmq) {
     BAD_QUERY(box.west = -181, "west");
     BAD_QUERY(box.east = 181, "east");
     BAD_QUERY(box.east = NAN, "east");
+    BAD_QUERY(region = LOCUS_REGION_CIRCLE; query.circle.radius = -1, "circle.radius is -1");
+    BAD_QUERY(region = LOCUS_REGION_CIRCLE; query.circle.radius = NAN, "circle.radius");
+    BAD_QUERY(region = LOCUS_REGION_CIRCLE; query.circle.radius = 20015200, "half the globe");
+    BAD_QUERY(region = LOCUS_REGION_CIRCLE; query.circle.latitude = 91, "circle.latitude is 91");
+    BAD_QUERY(region = LOCUS_REGION_CIRCLE; query.circle.longitude = NAN, "circle.longitude");
+    BAD_QUERY(region = LOCUS_REGION_POLYGON, "polygon.rings is 0");
+    BAD_QUERY(region = LOCUS_REGION_POLYGON; query.polygon.rings = 1, "polygon.ring_sizes is NULL");
+    BAD_QUERY(region = LOCUS_REGION_POLYGON; query.polygon.rings = 1;
+              query.polygon.ring_sizes = &four, "polygon.vertices is NULL");
+    BAD_QUERY(region = LOCUS_REGION_POLYGON; query.polygon = bow, "crosses");
+    ring[1].latitude = NAN;
+    BAD_QUERY(region = LOCUS_REGION_POLYGON; query.polygon = bow, "polygon.vertices[1].latitude");
     CHECK(calls == 0);
     REFUSES(locus_pmq_count(NULL, NULL, &number), LOCUS_E_ARGUMENT, "pmq is NULL");
     REFUSES(locus_pmq_count(pmq, NULL, NULL), LOCUS_E_ARGUMENT, "count is NULL");
@@ -176,6 +194,52 @@ static void bad_queries(locus_pmq *pmq) {
     REFUSES(locus_pmq_tile(pmq, 3, 0, 0, 1, &region, bins, 4, &number), LOCUS_E_ARGUMENT, "region is 1");
     REFUSES(locus_pmq_tile(pmq, 3, 0, 0, 1, NULL, NULL, 4, &number), LOCUS_E_ARGUMENT, "bins is NULL");
     REFUSES(locus_pmq_tile(pmq, 3, 0, 0, 1, NULL, bins, 3, &number), LOCUS_E_CAPACITY, "capacity is 3");
+}
+
+static void rankings(locus_pmq *pmq) {
+    const locus_pmq_query region = box(0, 0, 1, 1);
+    locus_pmq_score score, bad;
+    locus_point32 records[4];
+    double scores[4];
+    size_t count = 0;
+    WORKS(locus_pmq_score_init(&score, sizeof score));
+    CHECK(score.struct_size == sizeof score && score.radius == 30000 && score.alpha == 0.2);
+    CHECK(score.period == 10000 * SECOND && score.latitude == 0 && score.longitude == 0);
+    REFUSES(locus_pmq_score_init(NULL, sizeof score), LOCUS_E_ARGUMENT, "score is NULL");
+    WORKS(locus_pmq_nearest(pmq, 0, 180, NULL, 4, records, scores, &count));
+    CHECK(count == 4 && records[0].device == 0 && records[1].device == 99 && records[2].device == 1);
+    CHECK(scores[0] > 1000 && scores[0] < 1200 && scores[0] < scores[1]);
+    score.longitude = 180;
+    score.radius = 500000; /* 4.5 degrees: devices 0, 1 and 99 */
+    score.alpha = 0;
+    score.period = 50 * SECOND; /* and of these only the last is young */
+    WORKS(locus_pmq_topk(pmq, &score, NULL, 4, records, scores, &count));
+    CHECK(count == 1 && records[0].device == 99 && scores[0] == 0);
+    score.period = 100 * SECOND;
+    WORKS(locus_pmq_topk(pmq, &score, NULL, 2, records, NULL, &count));
+    CHECK(count == 2 && records[0].device == 99 && records[1].device == 1);
+#define BAD_SCORE(change, words)                                                                                       \
+    bad = score;                                                                                                       \
+    bad.change;                                                                                                        \
+    REFUSES(locus_pmq_topk(pmq, &bad, NULL, 4, records, scores, &count), LOCUS_E_ARGUMENT, words)
+    BAD_SCORE(struct_size = 8, "struct_size is 8");
+    BAD_SCORE(latitude = NAN, "score.latitude");
+    BAD_SCORE(longitude = 181, "score.longitude is 181");
+    BAD_SCORE(radius = 0, "score.radius is 0");
+    BAD_SCORE(radius = 20015200, "half the globe");
+    BAD_SCORE(alpha = 1.5, "score.alpha is 1.5");
+    BAD_SCORE(alpha = NAN, "score.alpha");
+    BAD_SCORE(period = 0, "score.period is 0");
+    REFUSES(locus_pmq_topk(NULL, &score, NULL, 4, records, scores, &count), LOCUS_E_ARGUMENT, "pmq is NULL");
+    REFUSES(locus_pmq_topk(pmq, NULL, NULL, 4, records, scores, &count), LOCUS_E_ARGUMENT, "score is NULL");
+    REFUSES(locus_pmq_topk(pmq, &score, &region, 4, records, scores, &count), LOCUS_E_ARGUMENT, "query.region");
+    REFUSES(locus_pmq_topk(pmq, &score, NULL, 0, records, scores, &count), LOCUS_E_ARGUMENT, "k is 0");
+    REFUSES(locus_pmq_topk(pmq, &score, NULL, 4, NULL, scores, &count), LOCUS_E_ARGUMENT, "records is NULL");
+    REFUSES(locus_pmq_topk(pmq, &score, NULL, 4, records, scores, NULL), LOCUS_E_ARGUMENT, "count is NULL");
+    REFUSES(locus_pmq_nearest(NULL, 0, 0, NULL, 4, records, scores, &count), LOCUS_E_ARGUMENT, "pmq is NULL");
+    REFUSES(locus_pmq_nearest(pmq, 91, 0, NULL, 4, records, scores, &count), LOCUS_E_ARGUMENT, "latitude is 91");
+    REFUSES(locus_pmq_nearest(pmq, 0, NAN, NULL, 4, records, scores, &count), LOCUS_E_ARGUMENT, "longitude");
+    REFUSES(locus_pmq_nearest(pmq, 0, 0, NULL, 0, records, scores, &count), LOCUS_E_ARGUMENT, "k is 0");
 }
 
 static void bad_inserts(locus_pmq *pmq, int64_t now) {
@@ -213,6 +277,8 @@ static void bad_inserts(locus_pmq *pmq, int64_t now) {
 
 static void queries(locus_pmq *pmq) {
     locus_pmq_query query = box(-1, 170, 1, -170);
+    const locus_position ring[4] = {{-1, 170}, {-1, 190}, {1, 190}, {1, 170}};
+    const uint64_t four = 4;
     locus_point32 records[100];
     uint32_t bins[16];
     uint64_t number = 0, sum = 0;
@@ -221,6 +287,18 @@ static void queries(locus_pmq *pmq) {
     WORKS(locus_pmq_count(pmq, NULL, &number));
     CHECK(number == 100);
     WORKS(locus_pmq_count(pmq, &query, &number)); /* across the antimeridian: devices 0, 1, 2, 98, 99 */
+    CHECK(number == 5);
+    query = everything();
+    query.region = LOCUS_REGION_CIRCLE;
+    query.circle.longitude = 180;
+    query.circle.radius = 1e6; /* 9 degrees: devices 0, 1, 2, 98, 99 */
+    WORKS(locus_pmq_count(pmq, &query, &number));
+    CHECK(number == 5);
+    query.region = LOCUS_REGION_POLYGON;
+    query.polygon.vertices = ring;
+    query.polygon.ring_sizes = &four;
+    query.polygon.rings = 1;
+    WORKS(locus_pmq_count(pmq, &query, &number));
     CHECK(number == 5);
     query = box(-1, -1, 1, 90);
     query.filter = odd_device;
@@ -271,6 +349,7 @@ static void walk(uint32_t index) {
     WORKS(locus_pmq_insert(pmq, records + 60, 40, 99 * SECOND));
     WORKS(locus_pmq_check(pmq));
     queries(pmq);
+    rankings(pmq);
     bad_queries(pmq);
     bad_inserts(pmq, 99 * SECOND);
 

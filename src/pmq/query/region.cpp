@@ -13,11 +13,21 @@ constexpr int64_t last_cell = (int64_t{1} << key_levels) - 1;
 
 int64_t cell(double coordinate) noexcept { return static_cast<int64_t>(map_cell(coordinate, key_levels)); }
 
+} // namespace
+
 void check_degrees(double value, double limit, const char *name) {
     require(value >= -limit && value <= limit, name, " is ", value, ", not within ", -limit, "..", limit, " degrees");
 }
 
-} // namespace
+locus_box covering_box(double south, double west, double north, double east) noexcept {
+    constexpr double slack = 1e-7; // degrees
+    locus_box box{std::max(-90.0, south - slack), -180, std::min(90.0, north + slack), 180};
+    if (east - west + 3 * slack < 360) {
+        box.west = std::remainder(west - slack, 360.0);
+        box.east = std::remainder(east + slack, 360.0);
+    }
+    return box;
+}
 
 // The projection is computed in floating point: one cell of slack on either side makes up for its rounding. A border
 // that is the end of the map (open) needs none: there is nothing beyond it.

@@ -49,4 +49,11 @@ private:
     unsigned parts_ = 0;
 };
 
+// Throws Error(LOCUS_E_ARGUMENT) unless a coordinate lies within -limit..limit degrees.
+void check_degrees(double value, double limit, const char *name);
+
+// A box around places with latitudes south..north and longitudes west..east, which may run past 180 degrees: a bit
+// larger, far more than rounding needs.
+locus_box covering_box(double south, double west, double north, double east) noexcept;
+
 } // namespace locus::pmq

@@ -1,0 +1,94 @@
+// The same records in a store of each layout, and beside them as a sorted vector.
+#pragma once
+
+#include "tests/unit/pmq/tracked_store.hpp"
+
+#include "core/zcurve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace locus::test {
+
+inline constexpr int64_t filled_now = 10000, filled_horizon = 9000;
+
+// Items at random places with times up to filled_now, mostly ascending; some have expired by then.
+inline std::vector<Item> draw_items(Places &draw, size_t count) {
+    std::vector<Item> items(count);
+    for (size_t i = 0; i < count; ++i) {
+        items[i] = draw.place();
+        items[i].id = i + 1;
+        items[i].time = static_cast<int64_t>(draw.chance(0.9) ? i * filled_now / count : draw.below(filled_now));
+    }
+    return items;
+}
+
+class FilledStores {
+public:
+    explicit FilledStores(const std::vector<Item> &items) : items(items) {
+        for (const LayoutChoice &choice : layouts) {
+            locus_pmq_options options = default_options();
+            choice.apply(options);
+            options.horizon = filled_horizon;
+            locus_pmq *pmq = nullptr;
+            EXPECT_EQ(locus_pmq_create(&options, &pmq), LOCUS_OK);
+            for (size_t i = 0; i < items.size(); i += 500) {
+                const size_t end = std::min(items.size(), i + 500);
+                const auto batch =
+                    pack({items.begin() + static_cast<ptrdiff_t>(i), items.begin() + static_cast<ptrdiff_t>(end)},
+                         LOCUS_RECORD_POINT32);
+                EXPECT_EQ(locus_pmq_insert(pmq, batch.data(), end - i, filled_now), LOCUS_OK) << locus_last_error();
+            }
+            stores.push_back(pmq);
+        }
+        std::erase_if(this->items, [](const Item &item) { return item.time < filled_now - filled_horizon; });
+        for (Item &item : this->items)
+            item.key = key_of(item.latitude, item.longitude);
+        std::stable_sort(this->items.begin(), this->items.end(),
+                         [](const Item &a, const Item &b) { return a.key < b.key; });
+    }
+    ~FilledStores() {
+        for (locus_pmq *pmq : stores)
+            locus_pmq_destroy(pmq);
+    }
+    FilledStores(const FilledStores &) = delete;
+    FilledStores &operator=(const FilledStores &) = delete;
+
+    // The live items a query should find, in order.
+    std::vector<uint64_t> selected(const locus_pmq_query &query,
+                                   const std::function<bool(const Item &)> &contains) const {
+        std::vector<uint64_t> ids;
+        for (const Item &item : items)
+            if (query.time_from <= item.time && item.time <= query.time_to && contains(item))
+                ids.push_back(item.id);
+        return ids;
+    }
+
+    void expect_selected(const locus_pmq_query &query, const std::function<bool(const Item &)> &contains) const {
+        const std::vector<uint64_t> wanted = selected(query, contains);
+        for (locus_pmq *pmq : stores) {
+            uint64_t counted = 0;
+            ASSERT_EQ(locus_pmq_count(pmq, &query, &counted), LOCUS_OK) << locus_last_error();
+            EXPECT_EQ(counted, wanted.size());
+            std::vector<locus_point32> records(wanted.size() + 1);
+            size_t count = 0;
+            ASSERT_EQ(locus_pmq_read(pmq, &query, records.data(), records.size(), &count), LOCUS_OK);
+            records.resize(count);
+            EXPECT_EQ(ids_of(records), wanted);
+        }
+    }
+
+    static std::vector<uint64_t> ids_of(const std::vector<locus_point32> &records) {
+        std::vector<uint64_t> ids;
+        for (const locus_point32 &record : records)
+            ids.push_back(unpack(&record, LOCUS_RECORD_POINT32).id);
+        return ids;
+    }
+
+    std::vector<Item> items; // live, in the order (key, arrival)
+    std::vector<locus_pmq *> stores;
+};
+
+} // namespace locus::test
