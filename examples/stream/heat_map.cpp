@@ -119,7 +119,7 @@ void draw_solar_hours(Canvas &canvas, const View &view, int64_t clock, int above
     for (int hour = 0; hour < 24; hour += 3) {
         const double longitude = std::remainder((hour - utc_hours) * 15, 360.0);
         const auto x = static_cast<int>(std::lround(view.x(longitude)));
-        char text[8];
+        char text[16];
         std::snprintf(text, sizeof text, "%02dh", hour);
         canvas.fill(x, above - 5, 1, 5, faint);
         canvas.text(std::clamp(x - Canvas::text_width(text) / 2, 2, view.width - 26), above - 21, text, faint);
