@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -29,7 +28,7 @@ void run_team(uint32_t threads, const std::function<void(uint32_t)> &body) {
     try {
         for (; rank < threads; ++rank)
             team.emplace_back(guarded, rank);
-    } catch (const std::system_error &) { // no more threads: the caller does the other ranks itself
+    } catch (const std::exception &) { // no more threads, or no memory: the caller does the other ranks itself
     }
     guarded(0);
     for (; rank < threads; ++rank)
