@@ -18,6 +18,10 @@ VERSION := $(shell awk '/define LOCUS_VERSION_(MAJOR|MINOR|PATCH)/ {v = v s $$3;
 SOVERSION := $(firstword $(subst ., ,$(VERSION)))
 
 WARN := -Wall -Wextra -Wpedantic -Wconversion -Werror
+# Under the sanitizers g++ warns of what cannot happen; the same sources are held to -Werror without them.
+ifneq ($(SANITIZE),)
+WARN := $(filter-out -Werror,$(WARN))
+endif
 CPPFLAGS_ALL := -Iinclude -Isrc $(CPPFLAGS)
 # -ffile-prefix-map: no path of the build machine in what is installed. Unique symbols (a GNU extension) would pin the library
 # in memory after dlclose. -ffp-contract=off: a fused multiply-add would give other edge weights than separate ones.
@@ -38,10 +42,6 @@ ifeq ($(SIMD),scalar)
 CPPFLAGS_ALL += -DLOCUS_SIMD_SCALAR_ONLY
 else ifneq ($(SIMD),highway)
 $(error SIMD=$(SIMD): only 'highway' (the default) and 'scalar' are known)
-endif
-# Under the sanitizers g++ warns of what cannot happen; the same sources are held to -Werror without them.
-ifneq ($(SANITIZE),)
-WARN := $(filter-out -Werror,$(WARN))
 endif
 ifeq ($(SANITIZE),address)
 SANITIZER := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
