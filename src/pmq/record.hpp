@@ -39,6 +39,13 @@ inline constexpr RecordFormat point32{sizeof(locus_point32), offsetof(locus_poin
 inline constexpr RecordFormat text156{sizeof(locus_text156), offsetof(locus_text156, latitude),
                                       offsetof(locus_text156, longitude), offsetof(locus_text156, time), true};
 
+inline void copy_record(std::byte *to, Bytes from, size_t size) noexcept {
+    if (size == LOCUS_RECORD_POINT32)
+        std::memcpy(to, from, LOCUS_RECORD_POINT32); // inline
+    else
+        std::memcpy(to, from, size);
+}
+
 // Times from..to, both included.
 struct TimeWindow {
     int64_t from = INT64_MIN;

@@ -41,9 +41,10 @@ struct Block {
     size_t count = 0;
     const uint32_t *order =
         nullptr; // visit the entries order[0..count) instead of 0..count: for Order::key in unsorted leaves
-    int64_t oldest = INT64_MIN; // no entry's time is smaller
-    bool within = false;        // every key lies in the range asked for; else test
-    bool times_ascend = false;  // the entries' times never decrease
+    int64_t oldest = INT64_MIN;                // no entry's time is smaller
+    uint64_t lowest = 0, highest = UINT64_MAX; // no entry's key lies outside
+    bool within = false;                       // every key lies in the range asked for; else test
+    bool times_ascend = false;                 // the entries' times never decrease
 
     size_t entry(size_t i) const noexcept { return order ? order[i] : i; }
     uint64_t key(size_t entry) const noexcept {
@@ -76,7 +77,7 @@ public:
     // The number of stored records with a key in `keys` and a time not before `from`, without looking at each where the
     // layout can.
     virtual uint64_t count(const Place &place, const KeyRange &keys, int64_t from) const = 0;
-    // Show blocks that together hold every stored record with a key in `keys` once, expired ones included, until
+    // Show blocks that together hold every live record with a key in `keys` once, and perhaps expired ones, until
     // `visit` says false; false if it did.
     virtual bool scan(const Place &place, const KeyRange &keys, Order order,
                       FunctionRef<bool(const Block &)> visit) const = 0;

@@ -13,13 +13,6 @@ constexpr size_t group_size = 32;
 // Readers may have to wait for a change of so many records; larger batches leave the version they read alone.
 constexpr size_t most_alone = 8192;
 
-void copy_record(std::byte *to, Bytes from, size_t size) noexcept {
-    if (size == LOCUS_RECORD_POINT32)
-        std::memcpy(to, from, LOCUS_RECORD_POINT32); // inline
-    else
-        std::memcpy(to, from, size);
-}
-
 } // namespace
 
 void RingLeaves::insert(const Batch &batch, Eviction &eviction, Departures &departures) {

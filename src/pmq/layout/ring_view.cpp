@@ -2,6 +2,8 @@
 #include "pmq/layout/ring_view.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 namespace locus::pmq {
 
@@ -53,15 +55,17 @@ Place RingView::narrow(const Place &outer, const Quadrant &quadrant) const noexc
     return {first, last_below(keys.hi, {first, outer.last})};
 }
 
+// No key of the leaf is larger.
+uint64_t RingView::highest(size_t position, size_t leaf) const noexcept {
+    const Node &node = *edition_.directory[position];
+    if (leaf + 1 < node.leaves)
+        return node.separators[leaf + 1];
+    return position + 1 < edition_.directory.size() ? edition_.directory.smallest(position + 1) : key_end - 1;
+}
+
 // Does the whole leaf lie in the range?
 bool RingView::within(size_t position, size_t leaf, const KeyRange &keys) const noexcept {
-    const Node &node = *edition_.directory[position];
-    if (node.separators[leaf] < keys.lo)
-        return false;
-    if (leaf + 1 < node.leaves)
-        return node.separators[leaf + 1] < keys.hi;
-    return position + 1 < edition_.directory.size() ? edition_.directory.smallest(position + 1) < keys.hi
-                                                    : keys.hi >= key_end;
+    return edition_.directory[position]->separators[leaf] >= keys.lo && highest(position, leaf) < keys.hi;
 }
 
 uint64_t RingView::count(const Place &place, const KeyRange &keys, int64_t from) const {
@@ -122,50 +126,119 @@ Block RingView::slots_of(const Node &node, size_t leaf) const noexcept {
 bool RingView::scan(const Place &place, const KeyRange &keys, Order order,
                     FunctionRef<bool(const Block &)> visit) const {
     return for_each_leaf(place, [&](size_t position, size_t leaf) {
-        const Node &node = *edition_.directory[position];
-        if (node.count[leaf] == 0)
+        if (edition_.directory[position]->count[leaf] == 0)
             return true;
-        return order == Order::any ? scan_ring(node, leaf, within(position, leaf, keys), visit)
-                                   : scan_sorted(node, leaf, keys, visit);
+        return order == Order::any ? scan_ring(position, leaf, keys, visit) : scan_sorted(position, leaf, keys, visit);
     });
 }
 
-// A ring is one block, or two.
-bool RingView::scan_ring(const Node &node, size_t leaf, bool within, FunctionRef<bool(const Block &)> visit) const {
-    Block block = slots_of(node, leaf);
-    const Block all = block;
-    const size_t head = node.head[leaf], count = node.count[leaf];
-    const size_t first = std::min(count, shape_.slots - head);
-    block.within = within;
-    block.keys = all.keys + head * all.key_stride;
-    block.records = all.record(head);
-    block.count = first;
-    if (!visit(block))
-        return false;
-    block.keys = all.keys;
-    block.records = all.records;
-    block.count = count - first;
-    return block.count == 0 || visit(block);
+// Where times are in order, what has expired is left out.
+size_t RingView::first_live(const Node &node, size_t leaf, Block &block) const noexcept {
+    const int64_t cutoff = edition_.moment.cutoff;
+    if (node.oldest[leaf] >= cutoff || !node.is_ordered(leaf))
+        return 0;
+    block.oldest = cutoff;
+    return first_not_before(format_, shape_, node, leaf, cutoff);
 }
 
-// Sort the entries asked for by (key, arrival).
-bool RingView::scan_sorted(const Node &node, size_t leaf, const KeyRange &keys,
+// A ring is one block, or two.
+bool RingView::scan_ring(size_t position, size_t leaf, const KeyRange &keys,
+                         FunctionRef<bool(const Block &)> visit) const {
+    const Node &node = *edition_.directory[position];
+    const Block all = slots_of(node, leaf);
+    Block block = all;
+    block.within = within(position, leaf, keys);
+    block.lowest = node.separators[leaf];
+    block.highest = highest(position, leaf);
+    size_t entry = first_live(node, leaf, block);
+    while (entry < node.count[leaf]) {
+        const size_t slot = shape_.slot(node.head[leaf], entry);
+        block.keys = all.keys + slot * all.key_stride;
+        block.records = all.record(slot);
+        block.count = std::min(node.count[leaf] - entry, shape_.slots - slot);
+        if (!visit(block))
+            return false;
+        entry += block.count;
+    }
+    return true;
+}
+
+namespace {
+
+// Entries to be put in the order (key, arrival): keys and the numbers of their slots, given in order of arrival. A
+// leaf's keys are near each other: buckets by their leading differing bits leave little to sort.
+class LeafOrder {
+public:
+    void add(uint64_t key, size_t slot) noexcept {
+        keys_[count_] = key;
+        slots_[count_++] = static_cast<uint16_t>(slot);
+        lowest_ = std::min(lowest_, key);
+        highest_ = std::max(highest_, key);
+    }
+    size_t count() const noexcept { return count_; }
+
+    void sort(uint32_t *slots) noexcept {
+        const int bits = static_cast<int>(std::bit_width(highest_ - lowest_));
+        const int shift = std::max(bits - bucket_bits, 0);
+        uint16_t ends[(1 << bucket_bits) + 1] = {};
+        for (size_t i = 0; i < count_; ++i)
+            ++ends[(keys_[i] - lowest_) >> shift];
+        uint16_t start = 0, most = 0;
+        for (uint16_t &end : ends) {
+            most = std::max(most, end);
+            start = static_cast<uint16_t>(start + std::exchange(end, start));
+        }
+        for (size_t i = 0; i < count_; ++i)
+            sorted_[ends[(keys_[i] - lowest_) >> shift]++] = (keys_[i] - lowest_) * LeafShape::most_slots + i;
+        if (shift > 0 && most > crowded)
+            std::sort(sorted_, sorted_ + count_);
+        else if (shift > 0)
+            insertion_sort();
+        for (size_t i = 0; i < count_; ++i)
+            slots[i] = slots_[sorted_[i] % LeafShape::most_slots];
+    }
+
+private:
+    void insertion_sort() noexcept {
+        for (size_t i = 1; i < count_; ++i) {
+            const uint64_t value = sorted_[i];
+            size_t at = i;
+            for (; at > 0 && sorted_[at - 1] > value; --at)
+                sorted_[at] = sorted_[at - 1];
+            sorted_[at] = value;
+        }
+    }
+
+    static constexpr int bucket_bits = 9;
+    static constexpr uint16_t crowded = 48;
+    uint64_t keys_[LeafShape::most_slots];
+    uint64_t sorted_[LeafShape::most_slots];
+    uint16_t slots_[LeafShape::most_slots];
+    uint64_t lowest_ = UINT64_MAX, highest_ = 0;
+    size_t count_ = 0;
+};
+
+} // namespace
+
+bool RingView::scan_sorted(size_t position, size_t leaf, const KeyRange &keys,
                            FunctionRef<bool(const Block &)> visit) const {
-    uint64_t order[LeafShape::most_slots];
-    uint32_t slots[LeafShape::most_slots];
-    size_t count = 0;
-    const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf]);
-    for (size_t i = 0; i < node.count[leaf]; ++i)
-        if (const uint64_t key = leaf_keys[shape_.slot(node.head[leaf], i)]; keys.contains(key))
-            order[count++] = key * LeafShape::most_slots + i;
-    if (count == 0)
-        return true;
-    std::sort(order, order + count);
-    for (size_t i = 0; i < count; ++i)
-        slots[i] = static_cast<uint32_t>(shape_.slot(node.head[leaf], order[i] % LeafShape::most_slots));
+    const Node &node = *edition_.directory[position];
     Block block = slots_of(node, leaf);
+    LeafOrder order;
+    const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf]);
+    for (size_t i = first_live(node, leaf, block); i < node.count[leaf]; ++i) {
+        const size_t slot = shape_.slot(node.head[leaf], i);
+        if (!keys.contains(leaf_keys[slot]))
+            continue;
+        order.add(leaf_keys[slot], slot);
+        __builtin_prefetch(block.record(slot));
+    }
+    if (order.count() == 0)
+        return true;
+    uint32_t slots[LeafShape::most_slots];
+    order.sort(slots);
     block.order = slots;
-    block.count = count;
+    block.count = order.count();
     block.within = true;
     block.times_ascend = false;
     return visit(block);

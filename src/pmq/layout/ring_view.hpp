@@ -49,8 +49,10 @@ private:
     uint64_t last_below(uint64_t key, const Place &outer) const noexcept;
     bool within(size_t position, size_t leaf, const KeyRange &keys) const noexcept;
     uint64_t count_leaf(size_t position, size_t leaf, const KeyRange &keys, int64_t from) const noexcept;
-    bool scan_ring(const Node &node, size_t leaf, bool within, FunctionRef<bool(const Block &)> visit) const;
-    bool scan_sorted(const Node &node, size_t leaf, const KeyRange &keys, FunctionRef<bool(const Block &)> visit) const;
+    uint64_t highest(size_t position, size_t leaf) const noexcept;
+    size_t first_live(const Node &node, size_t leaf, Block &block) const noexcept;
+    bool scan_ring(size_t position, size_t leaf, const KeyRange &keys, FunctionRef<bool(const Block &)> visit) const;
+    bool scan_sorted(size_t position, size_t leaf, const KeyRange &keys, FunctionRef<bool(const Block &)> visit) const;
 
     const Edition &edition_;
     const RecordFormat &format_;

@@ -19,12 +19,15 @@ uint64_t count(const View &view, const Selection &selection) {
 
 size_t read(const View &view, const Selection &selection, std::byte *records, size_t capacity) {
     const size_t size = view.format().size;
+    const Selection live = selection.at(view.moment());
     size_t found = 0;
-    for_each_record(view, selection, Order::key, [&](uint64_t, Bytes record) {
-        if (found < capacity)
-            std::memcpy(records + found * size, record, size);
-        ++found;
-        return true;
+    for_each_range(view, live.region, [&](const RangeAt &range) {
+        return scan_accepted(view, live, range, Order::key, [&](const Block &block, size_t entry) {
+            if (found < capacity)
+                copy_record(records + found * size, block.record(entry), size);
+            ++found;
+            return true;
+        });
     });
     return found;
 }

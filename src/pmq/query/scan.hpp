@@ -23,6 +23,10 @@ public:
         return place_accepted(key, record) &&
                (!selection_.filter || selection_.filter(record, selection_.filter_user) != 0);
     }
+    // Every entry of the block is accepted.
+    bool all_of(const Block &block) const noexcept {
+        return block.within && !region_ && !late_ && !selection_.filter && selection_.times.from <= block.oldest;
+    }
 
 private:
     bool place_accepted(uint64_t key, Bytes record) const noexcept {
@@ -45,9 +49,10 @@ template <typename Use>
 bool scan_accepted(const View &view, const Selection &selection, const RangeAt &range, Order order, Use &&use) {
     const Acceptance accepted(view, selection, range);
     return view.scan(range.place, range.keys, order, [&](const Block &block) {
+        const bool all = accepted.all_of(block);
         for (size_t i = 0; i < block.count; ++i) {
             const size_t entry = block.entry(i);
-            if (accepted(block, entry) && !use(block, entry))
+            if ((all || accepted(block, entry)) && !use(block, entry))
                 return false;
         }
         return true;

@@ -3,6 +3,7 @@
 #include "pmq/query/scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace locus::pmq {
@@ -29,10 +30,7 @@ private:
         if (quadrant.level == bin_level_) {
             add(bin(quadrant.x(), quadrant.y()), count_in(view_, live_, range));
         } else if (quadrant.level == key_levels || place.last - place.first <= bins_within(quadrant)) {
-            scan_accepted(view_, live_, range, Order::any, [&](const Block &block, size_t entry) {
-                add(bin_of(block, entry), 1);
-                return true;
-            });
+            scan(range);
         } else {
             for (unsigned child = 0; child < 4; ++child)
                 descend(quadrant.child(child), place);
@@ -43,12 +41,38 @@ private:
         return uint64_t{1} << 2 * (bin_level_ - quadrant.level);
     }
 
-    size_t bin_of(const Block &block, size_t entry) const noexcept {
-        if (bin_level_ <= key_levels) {
-            const uint64_t code = block.key(entry) >> 2 * (key_levels - bin_level_);
-            return bin(morton_x(code), morton_y(code));
-        }
-        const Bytes record = block.record(entry);
+    // A block whose keys lie in one bin is counted as a whole.
+    void scan(const RangeAt &range) {
+        const Acceptance accepted(view_, live_, range);
+        view_.scan(range.place, range.keys, Order::any, [&](const Block &block) {
+            const bool all = accepted.all_of(block);
+            if (all && bin_level_ <= key_levels && bin_of(block.lowest) == bin_of(block.highest) &&
+                block.lowest >= range.keys.lo && block.highest < range.keys.hi) {
+                add(bin_of(block.lowest), block.count);
+                return true;
+            }
+            for (size_t i = 0; i < block.count; ++i)
+                if (const size_t entry = block.entry(i); all || accepted(block, entry))
+                    add(bin_level_ <= key_levels ? bin_of(block.key(entry)) : bin_of(block.record(entry)), 1);
+            return true;
+        });
+    }
+
+    // The bits of a code's byte, x and y apart.
+    static constexpr auto halves = [] {
+        std::array<uint16_t, 256> table{};
+        for (unsigned code = 0; code < 256; ++code)
+            table[code] = static_cast<uint16_t>(morton_x(code) | morton_y(code) << 8);
+        return table;
+    }();
+
+    size_t bin_of(uint64_t key) const noexcept {
+        const auto code = static_cast<uint32_t>(key >> 2 * (key_levels - bin_level_));
+        const uint32_t low = halves[code & 0xFF], high = halves[code >> 8 & 0xFF];
+        return bin((low & 0xFF) | (high & 0xFF) << 4, low >> 8 | high >> 8 << 4);
+    }
+
+    size_t bin_of(Bytes record) const noexcept {
         const MapPoint point = map_point(view_.format().latitude(record), view_.format().longitude(record));
         return bin(map_cell(point.x, bin_level_), map_cell(point.y, bin_level_));
     }
