@@ -5,11 +5,14 @@
 
 #if __has_include(<postgresql/libpq-fe.h>)
 #include "tests/bench/harness/scratch.hpp"
+#include "tests/bench/harness/server.hpp"
 
 #include <postgresql/libpq-fe.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <thread>
 #include <unistd.h>
 
 namespace bench {
@@ -17,41 +20,43 @@ namespace {
 
 constexpr const char *programs = "/usr/lib/postgresql/15/bin/";
 
-/// Run a shell command, as the user postgres where we are root (the server refuses to be root).
-int run(const std::string &command) {
-    const std::string prefix = geteuid() == 0 ? "runuser -u postgres -- " : "";
-    return std::system(("cd / && " + prefix + command + " >/dev/null 2>&1").c_str());
-}
-
-/// A cluster, made, started, stopped and removed with the object.
-class Cluster {
+/// An empty cluster in a scratch folder, made as the user postgres where we are root (the server refuses to be root).
+class ClusterFiles {
 public:
-    Cluster() : folder_(scratch_.path().string()), data_(folder_ + "/data") {
-        if (geteuid() == 0 && std::system(("chown postgres " + folder_).c_str()) != 0) {
-            throw Missing("there is no user postgres");
+    ClusterFiles() {
+        std::string command = "cd / && ";
+        if (geteuid() == 0) {
+            command = "chown postgres " + folder() + " && cd / && ";
         }
-        const std::string settings = "-c listen_addresses= -c unix_socket_directories=" + folder_ +
-                                     " -c fsync=off -c synchronous_commit=off -c full_page_writes=off"
-                                     " -c shared_buffers=512MB";
-        if (run(std::string(programs) + "initdb -A trust -U bench -D " + data_) != 0 ||
-            run(std::string(programs) + "pg_ctl -w -D " + data_ + " -o \"" + settings + "\" start") != 0) {
-            throw Missing("PostgreSQL does not start");
+        for (const std::string &word : as_user("postgres")) {
+            command += word + " ";
+        }
+        command += std::string(programs) + "initdb -A trust -U bench -D " + data() + " >/dev/null 2>&1";
+        if (std::system(command.c_str()) != 0) {
+            throw Missing("PostgreSQL's initdb fails");
         }
     }
-    Cluster(const Cluster &) = delete;
-    Cluster &operator=(const Cluster &) = delete;
-    ~Cluster() { run(std::string(programs) + "pg_ctl -w -m immediate -D " + data_ + " stop"); }
-
-    PGconn *connect() const { return PQconnectdb(("host=" + folder_ + " user=bench dbname=postgres").c_str()); }
+    std::string folder() const { return scratch_.path().string(); }
+    std::string data() const { return folder() + "/data"; }
 
 private:
     Scratch scratch_;
-    std::string folder_, data_;
 };
+
+std::vector<std::string> server_command(const ClusterFiles &files) {
+    std::vector<std::string> words = as_user("postgres");
+    words.insert(words.end(), {std::string(programs) + "postgres", "-D", files.data()});
+    for (const std::string &setting : {std::string("listen_addresses="), "unix_socket_directories=" + files.folder(),
+                                       std::string("fsync=off"), std::string("synchronous_commit=off"),
+                                       std::string("full_page_writes=off"), std::string("shared_buffers=512MB")}) {
+        words.insert(words.end(), {"-c", setting});
+    }
+    return words;
+}
 
 class PostGis final : public Database {
 public:
-    PostGis() : connection_(cluster_.connect()) {
+    PostGis() : server_(server_command(files_)), connection_(connect()) {
         execute("CREATE EXTENSION postgis", PGRES_COMMAND_OK);
         execute("CREATE UNLOGGED TABLE posts(record bytea, place geometry(Point, 4326))", PGRES_COMMAND_OK);
         execute("CREATE INDEX ON posts USING gist(place)", PGRES_COMMAND_OK);
@@ -99,6 +104,13 @@ private:
     };
     using Result = std::unique_ptr<PGresult, Free>;
 
+    PGconn *connect() const {
+        const std::string where = "host=" + files_.folder() + " user=bench dbname=postgres";
+        for (int attempt = 0; attempt < 200 && PQping(where.c_str()) != PQPING_OK; ++attempt) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+        return PQconnectdb(where.c_str());
+    }
     [[noreturn]] void fail() const {
         throw std::runtime_error(std::string("PostgreSQL: ") + PQerrorMessage(connection_.get()));
     }
@@ -111,7 +123,8 @@ private:
         expect(Result(PQexec(connection_.get(), sql)), status);
     }
 
-    Cluster cluster_;
+    ClusterFiles files_;
+    Server server_;
     std::unique_ptr<PGconn, Free> connection_;
 };
 

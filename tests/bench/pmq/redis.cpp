@@ -4,60 +4,23 @@
 
 #if __has_include(<hiredis/hiredis.h>)
 #include "tests/bench/harness/scratch.hpp"
+#include "tests/bench/harness/server.hpp"
 
 #include <hiredis/hiredis.h>
 
-#include <csignal>
+#include <chrono>
 #include <cstring>
-#include <fcntl.h>
-#include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 
 namespace bench {
 namespace {
 
-/// A server process, ended with the object.
-class Server {
-public:
-    Server() : socket_(scratch_.file("redis.sock")) {
-        pid_ = fork();
-        if (pid_ == 0) {
-            const int quiet = open("/dev/null", O_WRONLY);
-            dup2(quiet, STDOUT_FILENO);
-            execlp("redis-server", "redis-server", "--port", "0", "--unixsocket", socket_.c_str(), "--save", "",
-                   "--appendonly", "no", "--dir", scratch_.path().c_str(), nullptr);
-            _exit(127);
-        }
-    }
-    Server(const Server &) = delete;
-    Server &operator=(const Server &) = delete;
-    ~Server() {
-        kill(pid_, SIGTERM);
-        waitpid(pid_, nullptr, 0);
-    }
-
-    redisContext *connect() const {
-        for (int attempt = 0; attempt < 100; ++attempt) {
-            redisContext *context = redisConnectUnix(socket_.c_str());
-            if (context != nullptr && context->err == 0) {
-                return context;
-            }
-            redisFree(context);
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        }
-        throw Missing("redis-server does not start");
-    }
-
-private:
-    Scratch scratch_;
-    std::string socket_;
-    pid_t pid_ = 0;
-};
-
 class RedisGeo final : public Database {
 public:
-    RedisGeo() : context_(server_.connect()) {}
+    RedisGeo()
+        : server_({"redis-server", "--port", "0", "--unixsocket", socket(), "--save", "", "--appendonly", "no", "--dir",
+                   scratch_.path().string()}),
+          context_(connect()) {}
 
     /// One GEOADD a batch; a member is the record and its number, which tells equal records apart.
     void insert(std::span<const locus_point32> batch) override {
@@ -95,6 +58,20 @@ private:
     };
     using Reply = std::unique_ptr<redisReply, Free>;
 
+    std::string socket() const { return scratch_.file("redis.sock"); }
+
+    redisContext *connect() const {
+        for (int attempt = 0; attempt < 100; ++attempt) {
+            redisContext *context = redisConnectUnix(socket().c_str());
+            if (context != nullptr && context->err == 0) {
+                return context;
+            }
+            redisFree(context);
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+        throw Missing("redis-server does not start");
+    }
+
     static std::string text(double degrees) {
         char digits[40];
         std::snprintf(digits, sizeof digits, "%.9f", degrees);
@@ -108,6 +85,7 @@ private:
         return reply;
     }
 
+    Scratch scratch_;
     Server server_;
     std::unique_ptr<redisContext, Free> context_;
     uint64_t next_ = 0;
