@@ -28,12 +28,14 @@ $(foreach area,$(UNIT_AREAS),$(eval $(call unit_program,$(area))))
 unit: $(addprefix unit-,$(UNIT_AREAS)) ## the unit tests only (unit-graph, unit-pmq, ... for one area)
 
 # API tests: C99 programs that see the public headers and the shared libraries only.
+# What a C program of clang's needs beside sanitized C++ libraries.
+SANITIZED_C := $(if $(and $(SANITIZE),$(findstring clang,$(CXX))),-fsanitize-link-c++-runtime -lstdc++)
 API_PROGRAMS := $(patsubst tests/api/%.c,$(OUT)/tests/api/%,$(wildcard tests/api/*.c))
 $(OUT)/tests/api/%: tests/api/%.c $(foreach name,$(LIBRARIES),$(SHARED_$(name))) $(wildcard tests/api/*.h) | $(call needs,test)
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	@$(CC) -Iinclude $(CPPFLAGS) $(CFLAGS_ALL) -std=c99 -Wstrict-prototypes -MMD -MP -MF $@.d $< -o $@ -L$(OUT) -Wl,--as-needed $(LIBRARIES:%=-l%) \
-	    -Wl,-rpath,'$$ORIGIN/../..' $(LDFLAGS_ALL) -lm
+	    -Wl,-rpath,'$$ORIGIN/../..' $(LDFLAGS_ALL) $(SANITIZED_C) -lm
 # The sanitizers keep what dlclose lets go; and they replace malloc, as the test of memory that runs out does.
 API_TESTS := $(filter-out $(if $(SANITIZE),api-dlopen api-memory),$(API_PROGRAMS:$(OUT)/tests/api/%=api-%))
 .PHONY: $(API_TESTS)
