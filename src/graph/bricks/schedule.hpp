@@ -7,8 +7,10 @@
 #include "graph/bricks/store.hpp"
 #include "graph/bricks/visit.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -18,9 +20,10 @@ namespace locus::bricks {
 template <typename Word>
 class Schedule {
 public:
-    // Keys are told apart down to 2^width_bits.
+    // Keys are told apart down to 2^width_bits, or by their highest bit where that is wider than a word.
     Schedule(const Store<Word> &store, unsigned width_bits)
-        : store_(store), width_bits_(width_bits), state_(store.layout().count()) {}
+        : store_(store), width_bits_(std::min<unsigned>(width_bits, std::numeric_limits<Word>::digits - 1)),
+          state_(store.layout().count()) {}
 
     // Before each run. What add() was given since the last run stays; a run that was stopped leaves a schedule that
     // must not be used again.
