@@ -47,8 +47,8 @@ struct RowPile {
     }
 };
 
-// Put piles that together hold each of `count` rows at most once into order; rows in no pile come from `base` where
-// given, and are empty otherwise.
+// Put the rows of the piles into order. A row in several piles, from a task that was begun and given back, is the same
+// in each; rows in no pile come from `base` where given, and are empty otherwise.
 Rows assemble(uint64_t count, std::span<const RowPile> piles, const Rows *base = nullptr);
 
 } // namespace locus::graph
