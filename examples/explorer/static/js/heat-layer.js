@@ -1,0 +1,62 @@
+// The heat map as a tile layer that is drawn anew in place: new pictures are fetched while the old ones are shown, and all of them
+// change in one frame, so that nothing flickers.
+import L from './leaflet.js';
+import { fetched } from './api.js';
+
+export const HeatLayer = L.GridLayer.extend({
+  options: { className: 'heat' },
+
+  // `parameters()` tells what tiles are asked with; `failed(error)` hears of those that did not come.
+  initialize(parameters, failed, options) {
+    L.setOptions(this, options);
+    this.parameters = parameters;
+    this.failed = failed;
+    this.on('tileunload', ({ tile }) => tile.request?.abort());
+  },
+
+  createTile(coords, done) {
+    const { x: width, y: height } = this.getTileSize();
+    const tile = Object.assign(document.createElement('canvas'), { width, height, className: 'heat-tile' });
+    this.load(tile, coords, this.parameters())
+      .then((picture) => {
+        this.paint(tile, picture);
+        done(null, tile);
+      }, (error) => {
+        if (error.name !== 'AbortError') this.failed(error);
+        done(error, tile);
+      });
+    return tile;
+  },
+
+  async load(tile, { x, y, z }, parameters) {
+    tile.request?.abort();
+    const request = tile.request = new AbortController();
+    const answer = await fetched(`/tiles/${z}/${x}/${y}.png`, parameters, request.signal);
+    return createImageBitmap(await answer.blob());
+  },
+
+  paint(tile, picture) {
+    const pen = tile.getContext('2d');
+    pen.globalCompositeOperation = 'copy';
+    pen.drawImage(picture, 0, 0, tile.width, tile.height);
+    picture.close();
+  },
+
+  // Draw all tiles anew. Answers when they have changed; while one redrawing is on its way, others wait for the next call.
+  async refresh() {
+    if (this.refreshing) return false;
+    this.refreshing = true;
+    try {
+      const parameters = this.parameters();
+      const tiles = Object.values(this._tiles ?? {});
+      const pictures = await Promise.allSettled(tiles.map(({ el, coords }) => this.load(el, this._wrapCoords(coords), parameters)));
+      pictures.forEach(({ status, value, reason }, i) => {
+        if (status === 'fulfilled') this.paint(tiles[i].el, value);
+        else if (reason.name !== 'AbortError') this.failed(reason);
+      });
+      return true;
+    } finally {
+      this.refreshing = false;
+    }
+  },
+});
