@@ -270,6 +270,52 @@ LOCUS_API locus_status locus_pmq_read(const locus_pmq *pmq, const locus_pmq_quer
 LOCUS_API locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_query *query, locus_visit_fn visit,
                                        void *user) LOCUS_NOEXCEPT;
 
+/* A position in the order (key, arrival): after every smaller key, and after `passed` of the selected records with this
+ * one. All zero is the beginning; LOCUS_KEY_END, 0 is the end. */
+#define LOCUS_KEY_END ((uint64_t)1 << 50)
+typedef struct locus_pmq_cursor {
+    uint64_t key;
+    uint64_t passed; /* other than 0 within a snapshot only */
+} locus_pmq_cursor;
+
+/* Go on in the order (key, arrival): copy the selected records behind `*cursor` (NULL query: all) into `records`, which
+ * has room for `capacity` of them, >= 1, and move the cursor behind the last. `*count` is how many were copied; 0:
+ * there are no more. While the store changes from page to page the cursor stays exact, for a page ends between two
+ * keys: each page is of one moment, no record is shown twice, and one that is there from the first page to the last is
+ * shown once; what comes or goes meanwhile is shown if it is there when its key is passed. So `capacity` must reach for
+ * the selected records of one key (as of one place): else LOCUS_E_CAPACITY, `*count` is what that key needs, and the
+ * cursor stays. The pages of a snapshot are filled to the capacity, whatever the keys; ask it with the same query all
+ * along. Errors: LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY, LOCUS_E_STALE: the cursor stays. Beside readers and the writer.
+ * Since 0.1. */
+LOCUS_API locus_status locus_pmq_read_page(const locus_pmq *pmq, const locus_pmq_query *query, locus_pmq_cursor *cursor,
+                                           void *records, size_t capacity, size_t *count) LOCUS_NOEXCEPT;
+
+/* By what locus_pmq_groups tells records apart: an id field of locus_point32, or a function of the caller's. */
+#define LOCUS_FIELD_DEVICE 0
+#define LOCUS_FIELD_APPLICATION 1
+#define LOCUS_FIELD_LANGUAGE 2
+#define LOCUS_FIELD_CALLER 3
+
+/* The group that a record belongs to. Called by the thread that asks, in no particular order; must not throw, longjmp
+ * or change the store. */
+typedef uint64_t (*locus_group_fn)(const void *record, void *user);
+
+typedef struct locus_pmq_group {
+    uint64_t value; /* of the field, or the caller's */
+    uint64_t count; /* records, >= 1 */
+    int64_t newest; /* the largest time among them, microseconds */
+} locus_pmq_group;
+
+/* Count the live records that `query` selects (NULL: all) by the value of `field`, LOCUS_FIELD_; for LOCUS_FIELD_CALLER
+ * by what `group` says of them (else it may be NULL; `user` is handed to it). The groups come into `groups`, which has
+ * room for `capacity` of them, the largest first, equal ones by rising value. `*count` is how many there are, also when
+ * the capacity is too small: then the first `capacity`, the largest, are stored, and the status is LOCUS_E_CAPACITY.
+ * Errors: LOCUS_E_ARGUMENT, LOCUS_E_UNSUPPORTED (the store's records have no such field), LOCUS_E_MEMORY,
+ * LOCUS_E_STALE. Beside readers and the writer. Since 0.1. */
+LOCUS_API locus_status locus_pmq_groups(const locus_pmq *pmq, const locus_pmq_query *query, uint32_t field,
+                                        locus_group_fn group, void *user, locus_pmq_group *groups, size_t capacity,
+                                        size_t *count) LOCUS_NOEXCEPT;
+
 /* Count the live records per bin of the Web-Mercator tile (zoom, x, y), zoom 0..25, x from the west, y from the north,
  * both below 2^zoom: 2^log2_bins bins a side (0..8), row by row from the north-west, into `bins`, which has room for
  * `capacity` numbers (a count beyond 2^32 - 1 stays there). A record belongs to the bin of its (clamped) key; finer
@@ -279,6 +325,19 @@ LOCUS_API locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_que
 LOCUS_API locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y, uint32_t log2_bins,
                                       const locus_pmq_query *query, uint32_t *bins, size_t capacity,
                                       uint64_t *total) LOCUS_NOEXCEPT;
+
+/* The weight of a record, a finite number. For locus_pmq_weighted_tile; called by the thread that asks, in the store's
+ * order; must not throw, longjmp or change the store. */
+typedef double (*locus_record_weight_fn)(const void *record, void *user);
+
+/* The same with each record counted as the `weight` of it, into bins that hold sums. They are added up in the store's
+ * order, so that every layout gives the same bits. Errors: those of locus_pmq_tile; LOCUS_E_ARGUMENT, too, when
+ * `weight` returns what is no finite number: then `bins` holds nothing of use. Beside readers and the writer. Since
+ * 0.1. */
+LOCUS_API locus_status locus_pmq_weighted_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y,
+                                               uint32_t log2_bins, const locus_pmq_query *query,
+                                               locus_record_weight_fn weight, void *user, double *bins, size_t capacity,
+                                               double *total) LOCUS_NOEXCEPT;
 
 /* Fill a score (of `size` bytes) with the defaults stated at the fields. Errors: LOCUS_E_ARGUMENT. Any thread. Since
  * 0.1. */

@@ -8,6 +8,7 @@
 #include "pmq/query/ranking.hpp"
 #include "pmq/store.hpp"
 
+#include <algorithm>
 #include <memory>
 
 using locus::boundary;
@@ -28,6 +29,7 @@ static_assert(sizeof(locus_pmq_options) == 144, "append only; then update the AB
 static_assert(sizeof(locus_pmq_query) == 136, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_score) == 48, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_stats) == 136, "append only; then update the ABI baseline");
+static_assert(LOCUS_KEY_END == locus::key_end);
 
 namespace {
 
@@ -89,6 +91,55 @@ private:
     std::unique_ptr<const Region> region_;
     Selection selection_;
     const locus_pmq_snapshot *snapshot_ = nullptr;
+};
+
+// A query of a tile, whose region it is, with the bins that it needs.
+class TileQuestion : public Question {
+public:
+    TileQuestion(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y, uint32_t log2_bins,
+                 const locus_pmq_query *query, size_t capacity)
+        : Question(query), tile(locus::Quadrant::of_tile(zoom, x, y)), bins(size_t{1} << (2 * (log2_bins & 15))) {
+        need(pmq, "pmq");
+        require(zoom <= locus::key_levels, "zoom is ", zoom, ", above ", locus::key_levels);
+        const uint32_t tiles = uint32_t{1} << zoom;
+        require(x < tiles, "x is ", x, ", zoom ", zoom, " has columns 0..", tiles - 1);
+        require(y < tiles, "y is ", y, ", zoom ", zoom, " has rows 0..", tiles - 1);
+        require(log2_bins <= 8, "log2_bins is ", log2_bins, ", above 8");
+        if (selection().region)
+            locus::fail(LOCUS_E_ARGUMENT, "query.region is ", query->region,
+                        ", not LOCUS_REGION_ALL: a tile has its own region");
+        if (capacity < bins)
+            locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", bins, " bins");
+    }
+    const locus::Quadrant tile;
+    const size_t bins;
+};
+
+// How locus_pmq_groups tells records apart.
+struct Field {
+    size_t offset;        // in a locus_point32,
+    locus_group_fn group; // or the caller's function
+    void *user;
+
+    Field(uint32_t field, const RecordFormat &format, locus_group_fn caller, void *caller_user)
+        : offset(0), group(nullptr), user(caller_user) {
+        constexpr size_t offsets[] = {offsetof(locus_point32, device), offsetof(locus_point32, application),
+                                      offsetof(locus_point32, language)};
+        require(field <= LOCUS_FIELD_CALLER, "field is ", field, ", not a LOCUS_FIELD_");
+        if (field == LOCUS_FIELD_CALLER)
+            group = &need(caller, "group");
+        else if (format.size != LOCUS_RECORD_POINT32)
+            locus::fail(LOCUS_E_UNSUPPORTED, "field is ", field, ", which records of ", format.size, " bytes have not");
+        else
+            offset = offsets[field];
+    }
+    uint64_t operator()(Bytes record) const {
+        if (group)
+            return group(record, user);
+        uint16_t value;
+        std::memcpy(&value, record + offset, sizeof value);
+        return value;
+    }
 };
 
 locus_pmq_score default_score() noexcept {
@@ -244,25 +295,61 @@ locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_query *query,
     });
 }
 
+locus_status locus_pmq_read_page(const locus_pmq *pmq, const locus_pmq_query *query, locus_pmq_cursor *cursor,
+                                 void *records, size_t capacity, size_t *count) noexcept {
+    return boundary(__func__, [&] {
+        need(pmq, "pmq");
+        need(cursor, "cursor");
+        need(count, "count");
+        require(records != nullptr, "records is NULL");
+        require(capacity > 0, "capacity is 0");
+        const Question question(query);
+        const bool lasting = question.snapshot() != nullptr;
+        require(cursor->key <= LOCUS_KEY_END, "cursor->key is ", cursor->key, ", beyond LOCUS_KEY_END");
+        require(lasting || cursor->passed == 0, "cursor->passed is ", cursor->passed,
+                ", not 0: the cursor is a snapshot's");
+        *count = read_page(*question.view(*pmq), question.selection(), lasting, *cursor,
+                           static_cast<std::byte *>(records), capacity, *count);
+    });
+}
+
+locus_status locus_pmq_groups(const locus_pmq *pmq, const locus_pmq_query *query, uint32_t field, locus_group_fn group,
+                              void *user, locus_pmq_group *groups, size_t capacity, size_t *count) noexcept {
+    return boundary(__func__, [&] {
+        need(pmq, "pmq");
+        need(count, "count");
+        require(groups != nullptr || capacity == 0, "groups is NULL, capacity is ", capacity);
+        const Question question(query);
+        const auto view = question.view(*pmq);
+        const std::vector<locus_pmq_group> found =
+            locus::pmq::groups(*view, question.selection(), Field(field, view->format(), group, user));
+        std::copy_n(found.begin(), std::min(found.size(), capacity), groups);
+        *count = found.size();
+        if (found.size() > capacity)
+            locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", found.size(), " groups");
+    });
+}
+
 locus_status locus_pmq_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y, uint32_t log2_bins,
                             const locus_pmq_query *query, uint32_t *bins, size_t capacity, uint64_t *total) noexcept {
     return boundary(__func__, [&] {
-        need(pmq, "pmq");
         need(bins, "bins");
-        require(zoom <= locus::key_levels, "zoom is ", zoom, ", above ", locus::key_levels);
-        const uint32_t tiles = uint32_t{1} << zoom;
-        require(x < tiles, "x is ", x, ", zoom ", zoom, " has columns 0..", tiles - 1);
-        require(y < tiles, "y is ", y, ", zoom ", zoom, " has rows 0..", tiles - 1);
-        require(log2_bins <= 8, "log2_bins is ", log2_bins, ", above 8");
-        const Question question(query);
-        if (question.selection().region)
-            locus::fail(LOCUS_E_ARGUMENT, "query.region is ", query->region,
-                        ", not LOCUS_REGION_ALL: a tile has its own region");
-        const size_t number = size_t{1} << (2 * log2_bins);
-        if (capacity < number)
-            locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", number, " bins");
-        const uint64_t sum = tile(*question.view(*pmq), question.selection(), locus::Quadrant::of_tile(zoom, x, y),
-                                  log2_bins, {bins, number});
+        const TileQuestion question(pmq, zoom, x, y, log2_bins, query, capacity);
+        const uint64_t sum =
+            tile(*question.view(*pmq), question.selection(), question.tile, log2_bins, {bins, question.bins});
+        store_to(total, sum);
+    });
+}
+
+locus_status locus_pmq_weighted_tile(const locus_pmq *pmq, uint32_t zoom, uint32_t x, uint32_t y, uint32_t log2_bins,
+                                     const locus_pmq_query *query, locus_record_weight_fn weight, void *user,
+                                     double *bins, size_t capacity, double *total) noexcept {
+    return boundary(__func__, [&] {
+        need(weight, "weight");
+        need(bins, "bins");
+        const TileQuestion question(pmq, zoom, x, y, log2_bins, query, capacity);
+        const double sum = weighted_tile(*question.view(*pmq), question.selection(), question.tile, log2_bins, weight,
+                                         user, {bins, question.bins});
         store_to(total, sum);
     });
 }

@@ -190,6 +190,15 @@ int main(void) {
     FIELD(locus_pmq_score, alpha, 32);
     FIELD(locus_pmq_score, period, 40);
 
+    SIZE(locus_pmq_cursor, 16);
+    FIELD(locus_pmq_cursor, key, 0);
+    FIELD(locus_pmq_cursor, passed, 8);
+
+    SIZE(locus_pmq_group, 24);
+    FIELD(locus_pmq_group, value, 0);
+    FIELD(locus_pmq_group, count, 8);
+    FIELD(locus_pmq_group, newest, 16);
+
     SIZE(locus_pmq_stats, 136);
     FIELD(locus_pmq_stats, struct_size, 0);
     FIELD(locus_pmq_stats, records, 8);

@@ -242,6 +242,79 @@ static void rankings(locus_pmq *pmq) {
     REFUSES(locus_pmq_nearest(pmq, 0, 0, NULL, 0, records, scores, &count), LOCUS_E_ARGUMENT, "k is 0");
 }
 
+static double half(const void *record, void *user) {
+    (void)record;
+    return *(const double *)user;
+}
+
+static uint64_t by_decade(const void *record, void *user) {
+    (void)user;
+    return ((const locus_point32 *)record)->device / 10;
+}
+
+static void pages_and_sums(locus_pmq *pmq) {
+    const locus_pmq_query region = box(0, 0, 1, 1);
+    locus_pmq_query odd = everything();
+    locus_pmq_cursor cursor = {0, 0};
+    locus_pmq_group groups[16];
+    locus_point32 records[100];
+    double bins[16], total = 0, weight = 0.5;
+    size_t count = 0, seen = 0;
+    int i;
+    odd.filter = odd_device;
+    do {
+        WORKS(locus_pmq_read_page(pmq, &odd, &cursor, records, 20, &count));
+        seen += count;
+        for (i = 0; i < (int)count; i++)
+            CHECK(records[i].device % 2 == 1);
+    } while (count > 0);
+    CHECK(seen == 50 && cursor.key == LOCUS_KEY_END && cursor.passed == 0);
+    WORKS(locus_pmq_read_page(pmq, NULL, &cursor, records, 20, &count));
+    CHECK(count == 0);
+    cursor.key = 0;
+    REFUSES(locus_pmq_read_page(NULL, NULL, &cursor, records, 20, &count), LOCUS_E_ARGUMENT, "pmq is NULL");
+    REFUSES(locus_pmq_read_page(pmq, NULL, NULL, records, 20, &count), LOCUS_E_ARGUMENT, "cursor is NULL");
+    REFUSES(locus_pmq_read_page(pmq, NULL, &cursor, NULL, 20, &count), LOCUS_E_ARGUMENT, "records is NULL");
+    REFUSES(locus_pmq_read_page(pmq, NULL, &cursor, records, 0, &count), LOCUS_E_ARGUMENT, "capacity is 0");
+    REFUSES(locus_pmq_read_page(pmq, NULL, &cursor, records, 20, NULL), LOCUS_E_ARGUMENT, "count is NULL");
+    cursor.passed = 3;
+    REFUSES(locus_pmq_read_page(pmq, NULL, &cursor, records, 20, &count), LOCUS_E_ARGUMENT, "cursor->passed is 3");
+    cursor.key = LOCUS_KEY_END + 1;
+    REFUSES(locus_pmq_read_page(pmq, NULL, &cursor, records, 20, &count), LOCUS_E_ARGUMENT, "cursor->key is 1125");
+
+    WORKS(locus_pmq_groups(pmq, &odd, LOCUS_FIELD_CALLER, by_decade, NULL, groups, 16, &count));
+    CHECK(count == 10 && groups[0].value == 0 && groups[0].count == 5 && groups[9].newest == 99 * SECOND);
+    WORKS(locus_pmq_groups(pmq, NULL, LOCUS_FIELD_LANGUAGE, NULL, NULL, groups, 1, &count));
+    CHECK(count == 1 && groups[0].value == 0 && groups[0].count == 100);
+    REFUSES(locus_pmq_groups(pmq, NULL, LOCUS_FIELD_DEVICE, NULL, NULL, groups, 16, &count), LOCUS_E_CAPACITY,
+            "capacity is 16, there are 100 groups");
+    CHECK(count == 100 && groups[0].value == 0 && groups[15].value == 15);
+    REFUSES(locus_pmq_groups(NULL, NULL, LOCUS_FIELD_DEVICE, NULL, NULL, groups, 16, &count), LOCUS_E_ARGUMENT, "pmq");
+    REFUSES(locus_pmq_groups(pmq, NULL, 4, by_decade, NULL, groups, 16, &count), LOCUS_E_ARGUMENT, "field is 4");
+    REFUSES(locus_pmq_groups(pmq, NULL, LOCUS_FIELD_CALLER, NULL, NULL, groups, 16, &count), LOCUS_E_ARGUMENT,
+            "group is NULL");
+    REFUSES(locus_pmq_groups(pmq, NULL, LOCUS_FIELD_DEVICE, NULL, NULL, NULL, 16, &count), LOCUS_E_ARGUMENT,
+            "groups is NULL");
+    REFUSES(locus_pmq_groups(pmq, NULL, LOCUS_FIELD_DEVICE, NULL, NULL, groups, 16, NULL), LOCUS_E_ARGUMENT, "count");
+
+    WORKS(locus_pmq_weighted_tile(pmq, 0, 0, 0, 2, &odd, half, &weight, bins, 16, &total));
+    CHECK(total == 25);
+    REFUSES(locus_pmq_weighted_tile(NULL, 0, 0, 0, 2, NULL, half, &weight, bins, 16, &total), LOCUS_E_ARGUMENT, "pmq");
+    REFUSES(locus_pmq_weighted_tile(pmq, 0, 0, 0, 2, NULL, NULL, NULL, bins, 16, &total), LOCUS_E_ARGUMENT, "weight");
+    REFUSES(locus_pmq_weighted_tile(pmq, 0, 0, 0, 2, NULL, half, &weight, NULL, 16, &total), LOCUS_E_ARGUMENT, "bins");
+    REFUSES(locus_pmq_weighted_tile(pmq, 0, 0, 0, 2, NULL, half, &weight, bins, 15, &total), LOCUS_E_CAPACITY,
+            "capacity is 15");
+    REFUSES(locus_pmq_weighted_tile(pmq, 3, 8, 0, 2, NULL, half, &weight, bins, 16, &total), LOCUS_E_ARGUMENT,
+            "x is 8");
+    REFUSES(locus_pmq_weighted_tile(pmq, 0, 0, 0, 9, NULL, half, &weight, bins, 16, &total), LOCUS_E_ARGUMENT,
+            "log2_bins is 9");
+    REFUSES(locus_pmq_weighted_tile(pmq, 0, 0, 0, 2, &region, half, &weight, bins, 16, &total), LOCUS_E_ARGUMENT,
+            "region is 1");
+    weight = INFINITY;
+    REFUSES(locus_pmq_weighted_tile(pmq, 0, 0, 0, 2, NULL, half, &weight, bins, 16, &total), LOCUS_E_ARGUMENT,
+            "weight returned inf");
+}
+
 static void bad_inserts(locus_pmq *pmq, int64_t now) {
     locus_point32 records[2];
     uint64_t before = 0, after = 0;
@@ -350,6 +423,7 @@ static void walk(uint32_t index) {
     WORKS(locus_pmq_check(pmq));
     queries(pmq);
     rankings(pmq);
+    pages_and_sums(pmq);
     bad_queries(pmq);
     bad_inserts(pmq, 99 * SECOND);
 
@@ -410,6 +484,8 @@ static void texts(void) {
     WORKS(locus_pmq_read(pmq, NULL, back, 2, &count));
     CHECK(count == 2 && back[0].latitude == 89.5f && back[0].text[139] == 'x'); /* north comes first */
     CHECK(back[1].latitude == -89.5f && back[1].time == 7);
+    REFUSES(locus_pmq_groups(pmq, NULL, LOCUS_FIELD_LANGUAGE, NULL, NULL, NULL, 0, &count), LOCUS_E_UNSUPPORTED,
+            "field is 2");
     locus_pmq_destroy(pmq);
 }
 

@@ -1,9 +1,12 @@
-// Heat-map tiles: counts per bin (thesis section 3.5.1).
+// Heat-map tiles: counts, or sums of weights, per bin (thesis section 3.5.1).
 #include "pmq/query/queries.hpp"
+
+#include "core/error.hpp"
 #include "pmq/query/scan.hpp"
+#include "pmq/query/tile_bins.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 
 namespace locus::pmq {
@@ -13,8 +16,7 @@ class TileCount {
 public:
     TileCount(const View &view, const Selection &live, const Quadrant &tile, unsigned log2_bins,
               std::span<uint32_t> bins)
-        : view_(view), live_(live), tile_(tile), log2_bins_(log2_bins), bin_level_(tile.level + log2_bins),
-          bins_(bins) {}
+        : view_(view), live_(live), tile_(tile), places_(view.format(), tile, log2_bins), bins_(bins) {}
 
     uint64_t run() {
         descend(tile_, view_.everywhere());
@@ -27,8 +29,8 @@ private:
         if (place.empty())
             return;
         const RangeAt range{place, quadrant.keys(), true};
-        if (quadrant.level == bin_level_) {
-            add(bin(quadrant.x(), quadrant.y()), count_in(view_, live_, range));
+        if (quadrant.level == places_.level()) {
+            add(places_.at(quadrant.x(), quadrant.y()), count_in(view_, live_, range));
         } else if (quadrant.level == key_levels || place.last - place.first <= bins_within(quadrant)) {
             scan(range);
         } else {
@@ -38,7 +40,7 @@ private:
     }
 
     uint64_t bins_within(const Quadrant &quadrant) const noexcept {
-        return uint64_t{1} << 2 * (bin_level_ - quadrant.level);
+        return uint64_t{1} << 2 * (places_.level() - quadrant.level);
     }
 
     // A block whose keys lie in one bin is counted as a whole.
@@ -46,41 +48,16 @@ private:
         const Acceptance accepted(view_, live_, range);
         view_.scan(range.place, range.keys, Order::any, [&](const Block &block) {
             const bool all = accepted.all_of(block);
-            if (all && bin_level_ <= key_levels && bin_of(block.lowest) == bin_of(block.highest) &&
+            if (all && places_.by_key() && places_.of(block.lowest) == places_.of(block.highest) &&
                 block.lowest >= range.keys.lo && block.highest < range.keys.hi) {
-                add(bin_of(block.lowest), block.count);
+                add(places_.of(block.lowest), block.count);
                 return true;
             }
             for (size_t i = 0; i < block.count; ++i)
                 if (const size_t entry = block.entry(i); all || accepted(block, entry))
-                    add(bin_level_ <= key_levels ? bin_of(block.key(entry)) : bin_of(block.record(entry)), 1);
+                    add(places_.of(block.key(entry), block.record(entry)), 1);
             return true;
         });
-    }
-
-    // The bits of a code's byte, x and y apart.
-    static constexpr auto halves = [] {
-        std::array<uint16_t, 256> table{};
-        for (unsigned code = 0; code < 256; ++code)
-            table[code] = static_cast<uint16_t>(morton_x(code) | morton_y(code) << 8);
-        return table;
-    }();
-
-    size_t bin_of(uint64_t key) const noexcept {
-        const auto code = static_cast<uint32_t>(key >> 2 * (key_levels - bin_level_));
-        const uint32_t low = halves[code & 0xFF], high = halves[code >> 8 & 0xFF];
-        return bin((low & 0xFF) | (high & 0xFF) << 4, low >> 8 | high >> 8 << 4);
-    }
-
-    size_t bin_of(Bytes record) const noexcept {
-        const MapPoint point = map_point(view_.format().latitude(record), view_.format().longitude(record));
-        return bin(map_cell(point.x, bin_level_), map_cell(point.y, bin_level_));
-    }
-
-    // Columns and rows count from the tile's corner.
-    size_t bin(uint64_t column, uint64_t row) const noexcept {
-        const uint64_t mask = (uint64_t{1} << log2_bins_) - 1;
-        return static_cast<size_t>((row & mask) << log2_bins_ | (column & mask));
     }
 
     void add(size_t bin, uint64_t count) noexcept {
@@ -92,8 +69,7 @@ private:
     const View &view_;
     const Selection &live_;
     Quadrant tile_;
-    unsigned log2_bins_;
-    unsigned bin_level_; // may be finer than the keys
+    TileBins places_;
     std::span<uint32_t> bins_;
     uint64_t total_ = 0;
 };
@@ -106,6 +82,26 @@ uint64_t tile(const View &view, const Selection &selection, const Quadrant &tile
     live.region = nullptr;
     std::fill(bins.begin(), bins.end(), 0);
     return TileCount(view, live, tile, log2_bins, bins).run();
+}
+
+double weighted_tile(const View &view, const Selection &selection, const Quadrant &tile, unsigned log2_bins,
+                     locus_record_weight_fn weight, void *user, std::span<double> bins) {
+    Selection live = selection.at(view.moment());
+    live.region = nullptr;
+    std::fill(bins.begin(), bins.end(), 0);
+    const TileBins places(view.format(), tile, log2_bins);
+    double total = 0;
+    const RangeAt range{view.narrow(view.everywhere(), tile), tile.keys(), true};
+    scan_accepted(view, live, range, Order::key, [&](const Block &block, size_t entry) {
+        const Bytes record = block.record(entry);
+        const double value = weight(record, user);
+        require(std::isfinite(value), "weight returned ", value, " for the record at ", view.format().latitude(record),
+                ", ", view.format().longitude(record), ", not a finite number");
+        bins[places.of(block.key(entry), record)] += value;
+        total += value;
+        return true;
+    });
+    return total;
 }
 
 } // namespace locus::pmq
