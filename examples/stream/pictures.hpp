@@ -1,7 +1,7 @@
 // The pictures of a run: the moving window, the world and a zoom at the end.
 #pragma once
 
-#include "stream/animation.hpp"
+#include "common/animation.hpp"
 #include "stream/events.hpp"
 #include "stream/heat_map.hpp"
 #include "stream/window.hpp"

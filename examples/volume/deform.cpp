@@ -1,12 +1,14 @@
 // Displacements by weights of uniform and of compliance distances, before and after a cut.
 #include "volume/deform.hpp"
 
+#include "volume/blade.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace volume {
 namespace {
@@ -18,6 +20,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 // What the shapes of one slice have in common.
 struct Scene {
     const Options &options;
+    const Input &input;
     const Slicer &slicer;
     const Slice &slice;
     Plane plane;
@@ -31,7 +34,7 @@ struct Scene {
 Scene make_scene(const Options &options, const Input &input, const Material &material, const Result &result,
                  const Slicer &slicer) {
     const Slice &slice = slicer.slices()[0];
-    Scene scene{options, slicer, slice, Plane(slice, input), {}, {}, {}};
+    Scene scene{options, input, slicer, slice, Plane(slice, input), {}, {}, {}};
     for (const Motion &motion : options.motions) {
         const auto seed = std::ranges::find(result.seeds, motion.id, &locus_seed::id);
         if (seed == result.seeds.end())
@@ -54,40 +57,51 @@ std::array<double, 2> displacement(const Motion &motion, const std::array<double
     return {c * right - s * down - right + motion.right, s * right + c * down - down + motion.down};
 }
 
-// visit(row, its neighbour's row) for all pairs of rows whose voxels share a face.
-void for_pairs(const Plane &plane, auto visit) {
-    size_t step = 1;
-    for (size_t axis = 0; axis < 3; ++axis) {
-        const size_t extent = static_cast<size_t>(plane.box.extent[axis]);
-        for (size_t row = 0; extent > 1 && row < plane.rows(); ++row)
-            if (row / step % extent + 1 < extent)
-                visit(row, row + step);
-        step *= extent;
-    }
+// Which voxels of the plane the graph's edges join.
+void join(const Scene &scene, const locus_graph *graph, Shape &shape) {
+    const Plane &plane = scene.plane;
+    shape.joined.resize(shape.there.size());
+    for (size_t row = 0; row < shape.there.size(); ++row)
+        for (unsigned way = 0; way < ways.size(); ++way) {
+            const auto other = plane.beside(row, ways[way][0], ways[way][1]);
+            if (!other || !shape.there[row] || !shape.there[*other])
+                continue;
+            uint64_t weight = 0;
+            check(locus_graph_edge_weight(graph, index_of(scene.input, plane.at(row)),
+                                          index_of(scene.input, plane.at(*other)), &weight));
+            if (weight > 0)
+                shape.joined[row] = static_cast<uint8_t>(shape.joined[row] | 1u << way);
+        }
 }
 
 double stretch_of(const Scene &scene, const Shape &shape) {
     double most = 0;
-    for_pairs(scene.plane, [&](size_t a, size_t b) {
-        if (!scene.stiff[a] || !scene.stiff[b] || !shape.there[a] || !shape.there[b])
-            return;
-        const auto from = scene.place(a), to = scene.place(b);
-        const double right = to[0] - from[0], down = to[1] - from[1];
-        const double now =
-            std::hypot(right + shape.moved[b][0] - shape.moved[a][0], down + shape.moved[b][1] - shape.moved[a][1]);
-        most = std::max(most, std::abs(now / std::hypot(right, down) - 1));
-    });
+    for (size_t a = 0; a < shape.there.size(); ++a)
+        for (const auto &[across, down] : {std::pair{1, 0}, std::pair{0, 1}}) {
+            if (!scene.stiff[a] || !shape.is_joined(a, across, down))
+                continue;
+            const size_t b = *scene.plane.beside(a, across, down);
+            if (!scene.stiff[b])
+                continue;
+            const auto from = scene.place(a), to = scene.place(b);
+            const double right = to[0] - from[0], below = to[1] - from[1];
+            const double now = std::hypot(right + shape.moved[b][0] - shape.moved[a][0],
+                                          below + shape.moved[b][1] - shape.moved[a][1]);
+            most = std::max(most, std::abs(now / std::hypot(right, below) - 1));
+        }
     return most;
 }
 
 // The object where the diagram's seeds reach it, moved by the weights; NULL: at rest.
-Shape shape_of(const Scene &scene, const locus_diagram *diagram, const locus_weights *weights) {
+Shape shape_of(const Scene &scene, const locus_graph *graph, const locus_diagram *diagram,
+               const locus_weights *weights) {
     std::vector<uint32_t> labels(scene.plane.rows());
     check(locus_diagram_labels(diagram, &scene.plane.box, labels.data(), labels.size()));
     Shape shape;
     shape.moved.resize(labels.size());
     for (const uint32_t label : labels)
         shape.there.push_back(label != LOCUS_NO_SEED);
+    join(scene, graph, shape);
     if (weights == nullptr)
         return shape;
     const std::vector<float> numbers = dense(weights, scene.ids);
@@ -123,11 +137,11 @@ bool same_rows(const locus_weights *a, const locus_weights *b) {
 }
 
 void cut(const Scene &scene, locus_graph *graph, locus_diagram *diagram, locus_weights *weights, Deformation &result) {
-    check(locus_graph_fill_box(graph, &*scene.options.cut, std::numeric_limits<float>::quiet_NaN()));
-    check(locus_diagram_solve(diagram, nullptr, nullptr));
+    cut_along(*scene.options.cut, 1, scene.input, graph);
+    check(locus_diagram_update(diagram, nullptr, nullptr, nullptr, nullptr));
     result.cut = true;
-    result.cut_rest = shape_of(scene, diagram, nullptr);
-    result.cut_stale = shape_of(scene, diagram, weights);
+    result.cut_rest = shape_of(scene, graph, diagram, nullptr);
+    result.cut_stale = shape_of(scene, graph, diagram, weights);
     auto begin = Clock::now();
     std::vector<uint64_t> changed(scene.plane.rows());
     check(locus_weights_update(weights, changed.data(), changed.size(), &result.changed));
@@ -136,10 +150,15 @@ void cut(const Scene &scene, locus_graph *graph, locus_diagram *diagram, locus_w
     const Weights fresh = make_weights(diagram, LOCUS_METHOD_SIBSON, &scene.plane.box, nullptr);
     result.seconds_fresh = seconds_since(begin);
     result.same = same_rows(weights, fresh.get());
-    result.cut_fresh = shape_of(scene, diagram, weights);
+    result.cut_fresh = shape_of(scene, graph, diagram, weights);
 }
 
 } // namespace
+
+bool Shape::is_joined(size_t row, int across, int down) const {
+    const auto way = std::ranges::find(ways, std::array{across, down});
+    return (joined[row] >> (way - ways.begin()) & 1) != 0;
+}
 
 double stiff_from(const Material &material) { return std::sqrt(material.softest * material.stiffest); }
 
@@ -153,12 +172,12 @@ Deformation deform(const Options &options, const Input &input, const Material &m
         const Material uniform = make_material(geometric, input);
         const Diagram diagram = solve_again(geometric, uniform.graph.get(), result.seeds);
         const Weights weights = make_weights(diagram.get(), LOCUS_METHOD_SIBSON, &scene.plane.box, nullptr);
-        deformation.uniform = shape_of(scene, diagram.get(), weights.get());
+        deformation.uniform = shape_of(scene, uniform.graph.get(), diagram.get(), weights.get());
     }
     const Diagram diagram = solve_again(options, material.graph.get(), result.seeds);
     const Weights weights = make_weights(diagram.get(), LOCUS_METHOD_SIBSON, &scene.plane.box, nullptr);
-    deformation.rest = shape_of(scene, diagram.get(), nullptr);
-    deformation.compliance = shape_of(scene, diagram.get(), weights.get());
+    deformation.rest = shape_of(scene, material.graph.get(), diagram.get(), nullptr);
+    deformation.compliance = shape_of(scene, material.graph.get(), diagram.get(), weights.get());
     if (options.cut)
         cut(scene, material.graph.get(), diagram.get(), weights.get(), deformation);
     return deformation;

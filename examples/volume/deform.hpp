@@ -12,11 +12,18 @@
 
 namespace volume {
 
+// From a voxel of the slice to those around it: steps across and down.
+constexpr std::array<std::array<int, 2>, 8> ways{
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+
 // Every voxel of the slice where it was moved to.
 struct Shape {
     std::vector<std::array<double, 2>> moved; // displacement (right, down) of the plane's rows, in units of length
     std::vector<bool> there;                  // the row's voxel belongs to the object and a seed reaches it
+    std::vector<uint8_t> joined;              // per row a bit for each of `ways`: an edge of the graph leads there
     double stretch = 0;                       // largest change of length between stiff neighbours, 0.1: 10 %
+
+    bool is_joined(size_t row, int across, int down) const; // with the voxel so many steps away, one of `ways`
 };
 
 // The object at rest and moved in several ways.
@@ -29,7 +36,7 @@ struct Deformation {
     bool same = true;                             // updated and new weights are the same
 };
 
-// Needs a diagram of `material`'s graph for the slice; cuts that graph.
+// Cuts `material`'s graph, where a cut is asked for.
 Deformation deform(const Options &options, const Input &input, const Material &material, const Result &result,
                    const Slicer &slicer);
 

@@ -1,5 +1,6 @@
 // The deformed slice as pictures: at rest and moved, stiff and soft material in two colours under a grid that moves
 // along.
+#include "volume/blade.hpp"
 #include "volume/deform.hpp"
 #include "volume/panels.hpp"
 #include "volume/text.hpp"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace volume {
 namespace {
@@ -44,41 +46,40 @@ struct Stage {
     int kind(size_t row) const { return std::isnan(stiffness[row]) ? 0 : double{stiffness[row]} >= stiff_from ? 2 : 1; }
 };
 
-// Displacements at the corners of the voxels: means over the voxels there, so that neighbours hang together.
+// Displacements at the corners of the voxels: means over the voxels there that edges join, so that those hang together
+// and a cut gapes.
 class Corners {
 public:
-    Corners(const Stage &stage, const Shape &shape)
-        : wide_(static_cast<size_t>(stage.input.info.dims[stage.slice.across]) + 1), across_(stage.slice.across),
-          down_(stage.slice.down),
-          sums_(wide_ * (static_cast<size_t>(stage.input.info.dims[stage.slice.down]) + 1), {0, 0}),
-          counts_(sums_.size(), 0) {
-        for (size_t row = 0; row < shape.there.size(); ++row)
-            for (size_t corner = 0; shape.there[row] && corner < 4; ++corner) {
-                const size_t i = index(stage.plane.at(row), corner & 1, corner >> 1);
-                sums_[i][0] += shape.moved[row][0];
-                sums_[i][1] += shape.moved[row][1];
-                ++counts_[i];
-            }
+    Corners(const Stage &stage, const Shape &shape) : corners_(shape.there.size()) {
+        for (size_t row = 0; row < corners_.size(); ++row)
+            for (size_t corner = 0; shape.there[row] && corner < 4; ++corner)
+                corners_[row][corner] = mean(stage.plane, shape, row, (corner & 1) != 0 ? 1 : -1, corner < 2 ? -1 : 1);
     }
-    // Inside the voxel, 0..1 along the grid's axes.
-    Place at(const std::array<uint64_t, 3> &voxel, double across, double down) const {
+    // Inside the row's voxel, 0..1 along the grid's axes.
+    Place at(size_t row, double across, double down) const {
         Place sum{0, 0};
         for (size_t corner = 0; corner < 4; ++corner) {
-            const size_t i = index(voxel, corner & 1, corner >> 1);
-            const double weight = ((corner & 1) != 0 ? across : 1 - across) * ((corner >> 1) != 0 ? down : 1 - down);
-            sum[0] += weight * sums_[i][0] / counts_[i];
-            sum[1] += weight * sums_[i][1] / counts_[i];
+            const double weight = ((corner & 1) != 0 ? across : 1 - across) * (corner < 2 ? 1 - down : down);
+            sum[0] += weight * corners_[row][corner][0];
+            sum[1] += weight * corners_[row][corner][1];
         }
         return sum;
     }
 
 private:
-    size_t index(const std::array<uint64_t, 3> &voxel, size_t across, size_t down) const {
-        return static_cast<size_t>(voxel[across_]) + across + wide_ * (static_cast<size_t>(voxel[down_]) + down);
+    static Place mean(const Plane &plane, const Shape &shape, size_t row, int across, int down) {
+        Place sum = shape.moved[row];
+        int count = 1;
+        for (const auto &[i, j] : {std::pair{across, 0}, std::pair{0, down}, std::pair{across, down}}) {
+            if (!shape.is_joined(row, i, j))
+                continue;
+            const Place &other = shape.moved[*plane.beside(row, i, j)];
+            sum = {sum[0] + other[0], sum[1] + other[1]};
+            ++count;
+        }
+        return {sum[0] / count, sum[1] / count};
     }
-    size_t wide_, across_, down_;
-    std::vector<Place> sums_;
-    std::vector<int> counts_;
+    std::vector<std::array<Place, 4>> corners_; // by row
 };
 
 // The material's colour at a place inside a voxel at rest: its kind, its grey, and the grid's lines.
@@ -106,7 +107,7 @@ void lay(Canvas &canvas, const Stage &stage, const Shape &shape, double zoom) {
             grid[stage.slice.through] = static_cast<double>(stage.slice.at);
             grid[stage.slice.across] = static_cast<double>(voxel[stage.slice.across]) + across - 0.5;
             grid[stage.slice.down] = static_cast<double>(voxel[stage.slice.down]) + down - 0.5;
-            const Place rest = stage.slicer.place_of_grid(stage.slice, grid), by = corners.at(voxel, across, down);
+            const Place rest = stage.slicer.place_of_grid(stage.slice, grid), by = corners.at(row, across, down);
             return std::pair{stage.pixel({rest[0] + by[0], rest[1] + by[1]}, zoom), grid};
         };
         const auto [a, ignored_a] = place(0, 0);
@@ -168,12 +169,23 @@ void draw_frames(Canvas &canvas, const Stage &stage, bool at_rest) {
     }
 }
 
-Canvas draw_shape(const Stage &stage, const Shape &shape, bool at_rest) {
+void draw_blade(Canvas &canvas, const Stage &stage, double zoom) {
+    const auto line = line_in(*stage.options.cut, 1, stage.slicer, stage.slice);
+    if (!line)
+        return;
+    const Place a = stage.pixel((*line)[0], zoom), b = stage.pixel((*line)[1], zoom);
+    for (const double off : {-1.0, 0.0, 1.0})
+        canvas.line(a[0] + off, a[1] + off, b[0] + off, b[1] + off, black);
+}
+
+Canvas draw_shape(const Stage &stage, const Shape &shape, bool at_rest, bool cut) {
     const double zoom = 2 * stage.scale;
     Canvas large(stage.pixels(stage.view.width, zoom), stage.pixels(stage.view.height, zoom), {32, 34, 39});
     lay(large, stage, shape, zoom);
     if (!at_rest)
         outline(large, stage, zoom);
+    else if (cut)
+        draw_blade(large, stage, zoom);
     Canvas panel = halved(large);
     draw_frames(panel, stage, at_rest);
     return panel;
@@ -222,7 +234,7 @@ Stage make_stage(const Options &options, const Input &input, const Material &mat
 
 struct Panel {
     const Shape &shape;
-    bool at_rest;
+    bool at_rest, cut;
     std::string title, note;
 };
 
@@ -230,13 +242,13 @@ std::vector<Panel> panels_of(const Deformation &d) {
     const auto strain = [](const Shape &shape) {
         return "stiff material strained by " + short_number(std::round(1000 * shape.stretch) / 10) + " % at most";
     };
-    std::vector<Panel> panels{{d.rest, true, "at rest", ""},
-                              {d.uniform, false, "weights of uniform distances", strain(d.uniform)},
-                              {d.compliance, false, "weights of compliance distances", strain(d.compliance)}};
+    std::vector<Panel> panels{{d.rest, true, false, "at rest", ""},
+                              {d.uniform, false, false, "weights of uniform distances", strain(d.uniform)},
+                              {d.compliance, false, false, "weights of compliance distances", strain(d.compliance)}};
     if (d.cut) {
-        panels.push_back({d.cut_rest, true, "cut, at rest", ""});
-        panels.push_back({d.cut_stale, false, "cut, weights of before", "both sides still move together"});
-        panels.push_back({d.cut_fresh, false, "cut, weights updated", strain(d.cut_fresh)});
+        panels.push_back({d.cut_rest, true, true, "cut, at rest", ""});
+        panels.push_back({d.cut_stale, false, true, "cut, weights of before", "both sides still move together"});
+        panels.push_back({d.cut_fresh, false, true, "cut, weights updated", strain(d.cut_fresh)});
     }
     return panels;
 }
@@ -259,7 +271,7 @@ void draw_deformation(const std::string &path, const Options &options, const Inp
     for (int i = 0; i < static_cast<int>(panels.size()); ++i) {
         const Panel &panel = panels[static_cast<size_t>(i)];
         const int x = margin + i % columns * (width + gap), y = head + i / columns * (height + caption);
-        sheet.paste(draw_shape(stage, panel.shape, panel.at_rest), x, y);
+        sheet.paste(draw_shape(stage, panel.shape, panel.at_rest, panel.cut), x, y);
         write_centred(sheet, x + width / 2, y + height + 6, panel.title, ink);
         write_centred(sheet, x + width / 2, y + height + 24, panel.note, faint);
     }

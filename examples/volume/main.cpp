@@ -1,10 +1,12 @@
 // volume: any volume file and a transfer table in; Voronoi diagram, distances, pictures and volumes out.
+#include "volume/cutting.hpp"
 #include "volume/deform.hpp"
 #include "volume/model.hpp"
 #include "volume/options.hpp"
 #include "volume/pictures.hpp"
 #include "volume/slices.hpp"
 #include "volume/text.hpp"
+#include "volume/waves.hpp"
 #include "volume/weights.hpp"
 
 #include "common/progress.hpp"
@@ -87,6 +89,29 @@ void show_weights(const Options &options, const Input &input, const Material &ma
     row("weights", write_weights(options.out, input, result, diagram.get()));
 }
 
+bool show_waves(const Options &options, const Input &input, const Material &material, const Result &result,
+                const Slicer &slicer) {
+    const Waves waves = propagate(input, material, result, slicer);
+    draw_waves(options.out, options, input, result, slicer, waves);
+    const double times = static_cast<double>(waves.activations) / static_cast<double>(result.stats.reached);
+    row("waves", std::to_string(waves.waves.size()) + " iterations, a voxel active " + short_number(times) +
+                     " times on average, labels " + (waves.same ? "the same" : "DIFFER"));
+    return waves.same;
+}
+
+bool show_cut(const Options &options, const Input &input, const Material &material, const Result &result,
+              const Slicer &slicer) {
+    const Cutting cutting = cut_in_steps(options, input, material, result, slicer);
+    draw_cut(options.out + "/cut.png", options, input, material, result, slicer, cutting);
+    draw_cutting(options.out + "/cutting.png", options, input, material, result, slicer, cutting);
+    row("cut", demo::with_commas(cutting.edges) + " edges in " + std::to_string(options.cut_steps) + " steps, " +
+                   demo::with_commas(cutting.changed()) + " changes of voxels; an update took " +
+                   demo::duration_text(cutting.median()) + " (median), " + demo::duration_text(cutting.slowest()) +
+                   " at most, solving anew " + demo::duration_text(cutting.seconds_full) +
+                   (cutting.same ? ", the same" : ", THEY DIFFER"));
+    return cutting.same;
+}
+
 bool show_deformation(const Options &options, const Input &input, const Material &material, const Result &result,
                       const Slicer &slicer) {
     const Deformation shapes = deform(options, input, material, result, slicer);
@@ -96,9 +121,10 @@ bool show_deformation(const Options &options, const Input &input, const Material
                         " with weights of uniform distances, " + percent(shapes.compliance.stretch) +
                         " with those of compliance");
     if (shapes.cut)
-        row("cut", demo::with_commas(shapes.changed) + " rows of weights changed, updated in " +
-                       demo::duration_text(shapes.seconds_update) + " (made anew: " +
-                       demo::duration_text(shapes.seconds_fresh) + (shapes.same ? ", the same)" : ", THEY DIFFER)"));
+        row("weights cut", demo::with_commas(shapes.changed) + " rows of weights changed, updated in " +
+                               demo::duration_text(shapes.seconds_update) +
+                               " (made anew: " + demo::duration_text(shapes.seconds_fresh) +
+                               (shapes.same ? ", the same)" : ", THEY DIFFER)"));
     return shapes.same;
 }
 
@@ -128,6 +154,14 @@ int run(const Options &options) {
     if (options.weights) {
         show_weights(options, input, material, result, slicer);
         pictures += " weights.png";
+    }
+    if (options.waves) {
+        same = show_waves(options, input, material, result, slicer) && same;
+        pictures += " waves.png waves-series.png";
+    }
+    if (options.cut) {
+        same = show_cut(options, input, material, result, slicer) && same;
+        pictures += " cut.png cutting.png";
     }
     if (!options.motions.empty()) {
         same = show_deformation(options, input, material, result, slicer) && same;

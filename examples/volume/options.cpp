@@ -36,7 +36,8 @@ constexpr const char *footer =
     "Examples:\n"
     "  volume head.nii.gz --map 'range -300 226 1e4; range 226 inf 1e9' --place 32 --anatomy --out head\n"
     "  volume parts.nrrd --table stiffness.txt --seeds frames.txt --out parts\n"
-    "  volume parts.nrrd --table stiffness.txt --seeds frames.txt --weights --deform 2 -1.5 0 20 --cut 30 0 0 1 20 9\n"
+    "  volume parts.nrrd --table stiffness.txt --seeds frames.txt --weights --deform 2 -1.5 0 20 \\\n"
+    "      --cut 30.5 -1 -1  30.5 20 -1  30.5 -1 9\n"
     "  volume ct.dat --raw 256 256 108 --raw-type int16 --raw-spacing 1 1 1.5 --map 'range -300 inf 1' --place 8\n";
 
 const std::map<std::string, uint32_t> types{{"uint8", LOCUS_VOXEL_UINT8},     {"int8", LOCUS_VOXEL_INT8},
@@ -81,6 +82,14 @@ std::vector<Motion> motions_of(const std::vector<double> &numbers) {
     return motions;
 }
 
+Blade blade_of(const std::vector<double> &numbers) {
+    for (const double number : numbers)
+        if (!std::isfinite(number))
+            throw std::runtime_error("--cut: " + short_number(number) + " is no place");
+    const auto corner = [&](size_t i) { return std::array{numbers[i], numbers[i + 1], numbers[i + 2]}; };
+    return {corner(0), corner(3), corner(6)};
+}
+
 } // namespace
 
 std::optional<int> parse_options(int count, char **words, Options &options) {
@@ -90,8 +99,8 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
     app.footer(footer);
     app.get_formatter()->column_width(36);
 
-    std::vector<uint64_t> dims, slice, cut;
-    std::vector<double> spacing, window, motions;
+    std::vector<uint64_t> dims, slice;
+    std::vector<double> spacing, window, motions, cut;
     std::string map, table, seeds_file;
     double memory_gib = 8;
     bool big_endian = false, no_trace = false;
@@ -142,15 +151,27 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
                  "also the seeds' interpolation weights: weights.png over the first slice, by three methods, and, of "
                  "Sibson's method and small volumes, weights.nrrd");
     app.add_option("--weight-seeds", options.weight_seeds, "ids of the seeds in weights.png; default: the first three");
-    auto *deform = app.add_option("--deform", motions,
-                                  "also deform.png: the first slice moved by its seeds' frames. ID RIGHT DOWN DEGREES "
-                                  "shift and turn a seed's frame, once or for several seeds; the others stay")
-                       ->type_name("ID RIGHT DOWN DEGREES ...")
-                       ->expected(4, 400);
-    app.add_option("--cut", cut, "also the deformation after a cut: voxels X Y Z NX NY NZ removed")
-        ->type_name("X Y Z NX NY NZ")
-        ->expected(6)
-        ->needs(deform);
+    app.add_option("--deform", motions,
+                   "also deform.png: the first slice moved by its seeds' frames. ID RIGHT DOWN DEGREES "
+                   "shift and turn a seed's frame, once or for several seeds; the others stay")
+        ->type_name("ID RIGHT DOWN DEGREES ...")
+        ->expected(4, 400);
+    app.add_flag(
+        "--waves", options.waves,
+        "also waves.png, animated, and waves-series.png: how distances spread through the first slice, iteration "
+        "by iteration; slow on large volumes");
+    auto *blade =
+        app.add_option("--cut", cut,
+                       "also cut.png and, animated, cutting.png: a blade cuts the object and the diagram "
+                       "follows. Three corners of the blade, in voxels from 0: it enters with the edge from the "
+                       "first to the third and stops when the first has come to the second. With --deform also "
+                       "the deformation after the cut")
+            ->type_name("X Y Z  X Y Z  X Y Z")
+            ->expected(9);
+    app.add_option("--cut-steps", options.cut_steps, "steps in which the blade moves")
+        ->needs(blade)
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
     try {
         app.parse(count, words);
         if (map.empty() && table.empty())
@@ -179,7 +200,7 @@ std::optional<int> parse_options(int count, char **words, Options &options) {
     options.trace = !no_trace;
     options.motions = motions_of(motions);
     if (!cut.empty())
-        options.cut = {{cut[0], cut[1], cut[2]}, {cut[3], cut[4], cut[5]}};
+        options.cut = blade_of(cut);
     if (options.title.empty())
         options.title = options.input.substr(options.input.rfind('/') + 1);
     return std::nullopt;

@@ -19,6 +19,12 @@ struct Motion {
     double right, down, degrees;
 };
 
+// A blade that moves from the edge (from, side) until `from` has come to `to`; places in voxels from 0, whole ones at
+// the voxels' centres.
+struct Blade {
+    std::array<double, 3> from, to, side;
+};
+
 struct Options {
     std::string input;
     std::string out = "volume-out";
@@ -44,7 +50,9 @@ struct Options {
     bool weights = false;               // draw and write them
     std::vector<uint32_t> weight_seeds; // those drawn; none: the first few
     std::vector<Motion> motions;        // of the deformation; none: it is left out
-    std::optional<locus_voxel_box> cut; // through the deformed object
+    bool waves = false;                 // draw how the distances spread
+    std::optional<Blade> cut;           // through the object, and through the deformed one
+    uint32_t cut_steps = 12;
 };
 
 // Parse the command line; prints the help or what is wrong and returns the exit status where the program must end.

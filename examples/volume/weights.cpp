@@ -26,7 +26,7 @@ Weights make_weights(locus_diagram *diagram, uint32_t method, const locus_voxel_
     return Weights(weights);
 }
 
-Plane::Plane(const Slice &slice, const Input &input) {
+Plane::Plane(const Slice &slice, const Input &input) : across(slice.across), down(slice.down) {
     for (size_t axis = 0; axis < 3; ++axis)
         dims[axis] = box.extent[axis] = input.info.dims[axis];
     box.origin[slice.through] = slice.at;
@@ -42,6 +42,15 @@ size_t Plane::row(size_t voxel) const {
 std::array<uint64_t, 3> Plane::at(size_t row) const {
     return {box.origin[0] + row % box.extent[0], box.origin[1] + row / box.extent[0] % box.extent[1],
             box.origin[2] + row / box.extent[0] / box.extent[1]};
+}
+
+std::optional<size_t> Plane::beside(size_t row, int across_steps, int down_steps) const {
+    std::array<uint64_t, 3> voxel = at(row);
+    voxel[across] += static_cast<uint64_t>(across_steps); // below 0 it wraps around, out of the grid
+    voxel[down] += static_cast<uint64_t>(down_steps);
+    if (voxel[across] >= dims[across] || voxel[down] >= dims[down])
+        return std::nullopt;
+    return this->row(static_cast<size_t>(voxel[0] + dims[0] * (voxel[1] + dims[1] * voxel[2])));
 }
 
 std::vector<float> dense(const locus_weights *weights, const std::vector<uint32_t> &ids) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,12 @@ struct Plane {
     size_t rows() const { return static_cast<size_t>(box.extent[0] * box.extent[1] * box.extent[2]); }
     size_t row(size_t voxel) const;               // of a voxel of the slice, by its index
     std::array<uint64_t, 3> at(size_t row) const; // the voxel of a row
+    // The row of the voxel so many steps away along the grid axes that the slice shows across and down.
+    std::optional<size_t> beside(size_t row, int across_steps, int down_steps) const;
 
     locus_voxel_box box{};
     std::array<uint64_t, 3> dims{};
+    size_t across, down;
 };
 
 // The weight of each of `ids` in every row, row by row.

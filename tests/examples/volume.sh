@@ -26,14 +26,17 @@ head -c 400 "$folder/out/labels.nrrd" | grep -aq '^sizes: 24 20 16$' || fail "la
 "$program" "$folder/out/labels.nrrd" --map 'range 1 inf 1' --seeds "$folder/out/seeds.txt" --no-trace --out "$folder/again" >/dev/null ||
     fail "labels.nrrd is not read again"
 
-# Weights of the seeds, and the object deformed by them, before and after a cut through the lowest layers.
+# Weights of the seeds, the object deformed by them before and after a blade went through it, and the waves from the seeds.
 "$program" "$folder/noise.raw" "${raw[@]}" --map "$map" --place 5 --lloyd 1 --largest-part --width 90 --no-trace --weights --weight-seeds 3 1 \
-    --deform 1 2 1 20 3 -1 0 0 --cut 0 0 0 24 20 1 --out "$folder/moved" >"$folder/log" || fail "the weights: $(cat "$folder/log")"
-for file in weights.png deform.png weights.nrrd; do
+    --deform 1 2 1 20 3 -1 0 0 --cut 9.5 -1 -1 9.5 14 -1 11.5 -1 16 --cut-steps 3 --waves --out "$folder/moved" >"$folder/log" || fail "the weights: $(cat "$folder/log")"
+for file in weights.png deform.png cut.png cutting.png waves.png waves-series.png weights.nrrd; do
     [ -s "$folder/moved/$file" ] || fail "no $file"
 done
 head -c 400 "$folder/moved/weights.nrrd" | grep -aq '^sizes: 5 24 20 16$' || fail "weights.nrrd has other sizes"
-grep -q 'rows of weights changed.* the same)' "$folder/log" || fail "no cut in: $(cat "$folder/log")"
+grep -q 'rows of weights changed.* the same)' "$folder/log" || fail "no cut of the weights in: $(cat "$folder/log")"
+grep -q '[1-9][0-9]* edges in 3 steps, .* the same$' "$folder/log" || fail "no cut in: $(cat "$folder/log")"
+grep -q 'iterations, a voxel active .* labels the same' "$folder/log" || fail "no waves in: $(cat "$folder/log")"
+[ "$(grep -ac acTL "$folder/moved/cutting.png")" = 1 ] || fail "cutting.png is not animated"
 
 # More seeds than a 32-bit word has room for by default.
 "$program" "$folder/noise.raw" "${raw[@]}" --map "$map" --place 300 --lloyd 1 --word 32 --no-trace --out "$folder/many" >"$folder/log" ||
@@ -71,6 +74,7 @@ refuses 'no seed has the id 9' "${good[@]}" --place 2 --no-trace --weights --wei
 refuses 'no seed has the id 7' "${good[@]}" --place 2 --no-trace --deform 7 1 1 0
 refuses 'four numbers a seed, not 5' "${good[@]}" --place 2 --no-trace --deform 0 1 1 0 1
 refuses '1.5 is no seed' "${good[@]}" --place 2 --no-trace --deform 1.5 1 1 0
-refuses '--cut requires --deform' "${good[@]}" --place 2 --no-trace --cut 0 0 0 1 1 1
-refuses 'box' "${good[@]}" --place 2 --no-trace --deform 0 1 1 0 --cut 0 0 0 99 1 1
+refuses '--cut-steps requires --cut' "${good[@]}" --place 2 --no-trace --cut-steps 3
+refuses 'inf is no place' "${good[@]}" --place 2 --no-trace --cut 0 0 0 1 1 inf 0 0 1
+refuses '9 required' "${good[@]}" --place 2 --no-trace --cut 0 0 0 1 1 1
 echo "the volume program: good"

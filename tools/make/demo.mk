@@ -6,7 +6,7 @@ $(OUT)/examples/%: private CPPFLAGS_ALL := -Iinclude -Iexamples $(CPPFLAGS)
 # g++ 12 sees overlapping copies in joined strings where there are none (its bug 105651).
 $(OUT)/examples/%: private EXTRA_CXXFLAGS += $(if $(findstring clang,$(CXX)),,-Wno-restrict)
 
-# $(eval $(call example,NAME,LIBS)): $(OUT)/bin/NAME from examples/NAME/*.cpp and what the examples share.
+# $(eval $(call example,NAME)): $(OUT)/bin/NAME from examples/NAME/*.cpp and what the examples share.
 define example
 EXAMPLE_$(1) := $(OUT)/bin/$(1)
 OBJECTS_example_$(1) := $(patsubst %,$(OUT)/%.o,$(wildcard examples/$(1)/*.cpp))
@@ -14,14 +14,14 @@ $$(OBJECTS_example_$(1)) $(EXAMPLE_COMMON): | $(call needs,demo)
 $(OUT)/bin/$(1): $$(OBJECTS_example_$(1)) $(EXAMPLE_COMMON) $(SHARED_locus) $(SHARED_locus_io)
 	@mkdir -p $$(@D)
 	@echo "  LD  $$@"
-	@$$(CXX) $$(filter %.o,$$^) -L$(OUT) -llocus_io -llocus $(2) -lpng -Wl,-rpath,'$$$$ORIGIN/..' $$(LDFLAGS_ALL) -o $$@
+	@$$(CXX) $$(filter %.o,$$^) -L$(OUT) -llocus_io -llocus -lpng -lz -Wl,-rpath,'$$$$ORIGIN/..' $$(LDFLAGS_ALL) -o $$@
 endef
 
 .PHONY: demo
 demo: ## build the example programs and run them: pictures and results under build/demo
 
 # The stream of posts.
-$(eval $(call example,stream,-lz))
+$(eval $(call example,stream))
 .PHONY: demo-stream test-stream memcheck-stream
 demo-stream: $(EXAMPLE_stream) ## a day of posts through a six-hour window of the PMQ store
 	@$(EXAMPLE_stream) --out $(DEMO_OUT)/stream $(STREAM_FLAGS)
@@ -40,7 +40,7 @@ $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/examples/*.cpp)): EXTRA_CPPFLAGS +
 $(OUT)/tests/unit_examples: $(EXAMPLE_COMMON) $(filter-out %/main.cpp.o,$(OBJECTS_example_stream))
 
 # Volumes: a head CT out of InVesalius' compressed tar, and the steak where its data are.
-$(eval $(call example,volume,))
+$(eval $(call example,volume))
 VOLUME_OUT := $(DEMO_OUT)/volume
 CRANIUM := /usr/share/doc/invesalius-examples/examples/Cranium.inv3
 HEAD_CT := $(VOLUME_OUT)/head-ct.raw
@@ -56,17 +56,17 @@ $(HEAD_CT): | $(call needs,demo)
 .PHONY: demo-volume demo-head demo-steak
 demo-volume: demo-head demo-steak
 # What its main.plist says of the matrix; its rows run from back to front.
-demo-head: $(EXAMPLE_volume) $(HEAD_CT) ## Voronoi cells of 32 seeds in a head CT
+demo-head: $(EXAMPLE_volume) $(HEAD_CT) ## Voronoi cells of 32 seeds in a head CT, and a cut through it
 	@$(EXAMPLE_volume) $(HEAD_CT) --raw 256 256 108 --raw-type int16 --raw-spacing 0.9570312 0.9570312 1.5 --flip y \
-	    --table examples/volume/head.table --largest-part --place 32 --lloyd 5 --title 'Head CT' --anatomy --window -250 1200 \
+	    --table examples/volume/head.table --largest-part --place 32 --lloyd 5 --title 'Head CT' --anatomy --window -250 1200 --cut 100.5 256 -1  100.5 110 -1  100.5 256 108 \
 	    --out $(VOLUME_OUT)/head
-demo-steak: $(EXAMPLE_volume) ## Voronoi cells, weights and a deformation of a T-bone steak, where LOCUS_DATA holds it
+demo-steak: $(EXAMPLE_volume) ## Voronoi cells, waves, weights, a cut and a deformation of a T-bone steak, where LOCUS_DATA holds it
 	@if [ -r $(LOCUS_DATA)/steak/steak_64x64x15.mhd ]; then \
 	    $(EXAMPLE_volume) $(LOCUS_DATA)/steak/steak_64x64x15.mhd --table examples/volume/steak.table \
-	        --seeds $(LOCUS_DATA)/steak/seeds_10.txt --title 'T-bone steak' --out $(VOLUME_OUT)/steak && \
+	        --seeds $(LOCUS_DATA)/steak/seeds_10.txt --title 'T-bone steak' --waves --out $(VOLUME_OUT)/steak && \
 	    $(EXAMPLE_volume) $(LOCUS_DATA)/steak/steak_64x64x15.mhd --table examples/volume/steak.table --no-trace --weights \
 	        --seeds $(LOCUS_DATA)/steak/seeds_3.txt --title 'T-bone steak' --out $(VOLUME_OUT)/steak-frames \
-	        --deform 2 -1.2 -0.6 -25 --cut 33 0 0 1 27 15; \
+	        --deform 2 -1.2 -0.6 -25 --cut 33.5 -1 -1  33.5 26.5 -1  33.5 -1 15; \
 	else echo "demo-steak: skipped, there is no $(LOCUS_DATA)/steak (set LOCUS_DATA)"; fi
 demo: demo-volume
 

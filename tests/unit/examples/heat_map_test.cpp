@@ -1,5 +1,5 @@
 // The views of the stream example against plain arithmetic, its window, and animated PNGs.
-#include "stream/animation.hpp"
+#include "common/animation.hpp"
 #include "stream/heat_map.hpp"
 #include "stream/random.hpp"
 #include "stream/window.hpp"

@@ -1,5 +1,5 @@
 // APNG: the PNG specification, third edition, section 11.3.6.
-#include "stream/animation.hpp"
+#include "common/animation.hpp"
 
 #include <stdexcept>
 #include <string_view>
