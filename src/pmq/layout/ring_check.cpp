@@ -35,8 +35,8 @@ void RingLeaves::check() const {
             expect(node.separators[i] >= before, "the separators of node ", n, " run back at leaf ", i);
             before = node.separators[i];
             check_leaf(node, n, i, next);
-            expect(memory.insert(node.leaf[i]).second, "leaf ", i, " of node ", n, " is there twice");
-            total += node.count[i];
+            expect(memory.insert(node.leaf[i].memory).second, "leaf ", i, " of node ", n, " is there twice");
+            total += node.leaf[i].count;
         }
         for (size_t i = node.leaves; i < Node::fanout; ++i)
             expect(node.separators[i] == Node::unused, "node ", n, " has a separator beyond its leaves");
@@ -55,10 +55,10 @@ void RingLeaves::check() const {
 }
 
 void RingLeaves::check_leaf(const Node &node, size_t position, size_t leaf, uint64_t next) const {
-    const size_t count = node.count[leaf];
+    const size_t count = node.leaf[leaf].count;
     const auto name = [&] { return " in leaf " + std::to_string(leaf) + " of node " + std::to_string(position); };
-    expect(node.head[leaf] < shape_.slots && count + node.ghosts[leaf] <= shape_.slots, "head ", node.head[leaf],
-           ", count ", count, ", ghosts ", node.ghosts[leaf], name());
+    expect(node.leaf[leaf].head < shape_.slots && count + node.leaf[leaf].ghosts <= shape_.slots, "head ",
+           node.leaf[leaf].head, ", count ", count, ", ghosts ", node.leaf[leaf].ghosts, name());
     for (size_t i = 0; i < count; ++i) {
         const uint64_t key = key_at(node, leaf, i);
         const Bytes record = record_at(node, leaf, i);
@@ -66,7 +66,7 @@ void RingLeaves::check_leaf(const Node &node, size_t position, size_t leaf, uint
                " has the key of another place", name());
         expect(key >= node.separators[leaf] && key <= next, "key ", key, " lies outside ", node.separators[leaf], "..",
                next, name());
-        expect(format_.time(record) >= node.oldest[leaf], "entry ", i, " is older than it says", name());
+        expect(format_.time(record) >= node.leaf[leaf].oldest, "entry ", i, " is older than it says", name());
         expect(!node.is_ordered(leaf) || i == 0 || time_at(node, leaf, i - 1) <= format_.time(record), "entry ", i,
                " is out of the order of time", name());
     }

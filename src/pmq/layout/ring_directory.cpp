@@ -39,7 +39,12 @@ uint64_t bits_below(size_t i) noexcept { return i >= 64 ? ~uint64_t{0} : (uint64
 size_t Node::find(uint64_t key) const noexcept { return index_of(rank<true>(separators, fanout, key)); }
 size_t Node::find_below(uint64_t key) const noexcept { return index_of(rank<false>(separators, fanout, key)); }
 
-int64_t Node::oldest_of_all() const noexcept { return *std::min_element(oldest, oldest + leaves); }
+int64_t Node::oldest_of_all() const noexcept {
+    int64_t all = INT64_MAX;
+    for (size_t i = 0; i < leaves; ++i)
+        all = std::min(all, leaf[i].oldest);
+    return all;
+}
 
 void Node::clear() noexcept {
     std::memset(static_cast<void *>(this), 0, sizeof *this);
@@ -48,30 +53,17 @@ void Node::clear() noexcept {
 
 void Node::insert(size_t i, uint64_t separator, LeafMemory memory) noexcept {
     open_gap(separators, i, leaves);
-    open_gap(head, i, leaves);
-    open_gap(count, i, leaves);
-    open_gap(ghosts, i, leaves);
     open_gap(leaf, i, leaves);
-    open_gap(born, i, leaves);
-    open_gap(oldest, i, leaves);
     ordered = (ordered & bits_below(i)) | (ordered & ~bits_below(i)) << 1 | uint64_t{1} << i;
     separators[i] = separator;
-    head[i] = count[i] = ghosts[i] = 0;
-    leaf[i] = memory;
-    born[i] = version;
-    oldest[i] = INT64_MAX;
+    leaf[i] = {memory, version, INT64_MAX, 0, 0, 0, 0};
     ++leaves;
 }
 
 void Node::remove(size_t i) noexcept {
-    total -= count[i];
+    total -= leaf[i].count;
     close_gap(separators, i, leaves);
-    close_gap(head, i, leaves);
-    close_gap(count, i, leaves);
-    close_gap(ghosts, i, leaves);
     close_gap(leaf, i, leaves);
-    close_gap(born, i, leaves);
-    close_gap(oldest, i, leaves);
     ordered = (ordered & bits_below(i)) | (ordered >> 1 & ~bits_below(i));
     separators[--leaves] = unused;
 }
@@ -79,14 +71,9 @@ void Node::remove(size_t i) noexcept {
 void Node::append(const Node &other, size_t from, size_t to) noexcept {
     for (size_t i = from; i < to; ++i) {
         separators[leaves] = other.separators[i];
-        head[leaves] = other.head[i];
-        count[leaves] = other.count[i];
-        ghosts[leaves] = other.ghosts[i];
         leaf[leaves] = other.leaf[i];
-        born[leaves] = other.born[i];
-        oldest[leaves] = other.oldest[i];
         set_ordered(leaves, other.is_ordered(i));
-        total += count[leaves];
+        total += leaf[leaves].count;
         ++leaves;
     }
     ghost_version = std::max(ghost_version, other.ghost_version);
@@ -94,7 +81,7 @@ void Node::append(const Node &other, size_t from, size_t to) noexcept {
 
 void Node::truncate(size_t new_leaves) noexcept {
     while (leaves > new_leaves) {
-        total -= count[--leaves];
+        total -= leaf[--leaves].count;
         separators[leaves] = unused;
     }
 }
@@ -111,6 +98,7 @@ size_t Directory::find_below(uint64_t key) const noexcept {
     return index_of(rank<false>(smallest_.data(), smallest_.size(), key));
 }
 
+// What own and Node::find look at.
 void Directory::prefetch(size_t i) const noexcept {
     const auto *lines = reinterpret_cast<const char *>(nodes_[i]);
     for (size_t at = 0; at < offsetof(Node, leaf); at += 64)

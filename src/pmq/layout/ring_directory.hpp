@@ -9,25 +9,32 @@
 
 namespace locus::pmq {
 
+// What there is to know of a leaf without looking into it. Half a cache line, so that an insertion waits for one line.
+struct LeafEntry {
+    LeafMemory memory;
+    uint64_t born;   // the change that made the leaf
+    int64_t oldest;  // no entry's time is smaller; INT64_MAX at first
+    uint16_t head;   // the slot of the oldest entry
+    uint16_t count;  // entries
+    uint16_t ghosts; // slots before the head that must not be written yet: a reader may still see their entries
+    uint16_t spare;
+};
+static_assert(sizeof(LeafEntry) == 32);
+
 // Neighbouring leaves. Leaf i holds keys from separators[i] to separators[i + 1], both included: an equal key is found
 // in the earlier leaf if it arrived before the later leaf was made.
 struct alignas(64) Node {
     static constexpr size_t fanout = 64;
     static constexpr uint64_t unused = UINT64_MAX; // the separators beyond the last leaf
 
-    uint64_t separators[fanout];
-    uint16_t head[fanout];   // the slot of the oldest entry
-    uint16_t count[fanout];  // entries
-    uint16_t ghosts[fanout]; // slots before the head that must not be written yet: a reader may still see their entries
-    LeafMemory leaf[fanout];
-    uint64_t born[fanout];  // the change that made the leaf
-    int64_t oldest[fanout]; // no entry's time is smaller; INT64_MAX at first
-    uint64_t ordered;       // bit i: the times in leaf i never decrease
-    uint32_t leaves;
-    uint32_t total;         // entries of all leaves
     uint64_t version;       // the change that made this copy
     uint64_t ghost_version; // the change that left the latest ghosts; 0: there are none
-    Node *next;             // in a list of spare nodes
+    uint64_t ordered;       // bit i: the times in leaf i never decrease
+    uint32_t leaves;
+    uint32_t total; // entries of all leaves
+    Node *next;     // in a list of spare nodes
+    alignas(64) uint64_t separators[fanout];
+    alignas(64) LeafEntry leaf[fanout];
 
     size_t find(uint64_t key) const noexcept;       // the last leaf with separator <= key
     size_t find_below(uint64_t key) const noexcept; // the last leaf with separator < key; the first where there is none

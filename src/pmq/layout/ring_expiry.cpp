@@ -23,13 +23,13 @@ void RingLeaves::collect(size_t position, int64_t cutoff, Eviction *eviction, bo
                          std::vector<Cut> &cuts) const {
     const Node &node = *directory()[position];
     for (size_t i = 0; i < node.leaves; ++i)
-        if (node.oldest[i] < cutoff)
+        if (node.leaf[i].oldest < cutoff)
             __builtin_prefetch(record_at(node, i, 0) + format_.time_at);
     for (size_t i = 0; i < node.leaves; ++i) {
-        if (node.count[i] == 0)
+        if (node.leaf[i].count == 0)
             continue;
         Cut cut(position, i);
-        if (node.oldest[i] < cutoff) {
+        if (node.leaf[i].oldest < cutoff) {
             if (node.is_ordered(i))
                 cut.prefix = first_not_before(format_, shape_, node, i, cutoff);
             else
@@ -43,7 +43,7 @@ void RingLeaves::collect(size_t position, int64_t cutoff, Eviction *eviction, bo
 }
 
 void RingLeaves::mark_expired(const Node &node, size_t leaf, int64_t cutoff, bool thoroughly, Cut &cut) const {
-    const size_t count = node.count[leaf];
+    const size_t count = node.leaf[leaf].count;
     while (cut.prefix < count && time_at(node, leaf, cut.prefix) < cutoff)
         ++cut.prefix;
     for (size_t i = cut.prefix; i < count; ++i) {
@@ -62,7 +62,7 @@ void RingLeaves::mark_expired(const Node &node, size_t leaf, int64_t cutoff, boo
 void RingLeaves::ask(const Node &node, size_t leaf, int64_t cutoff, Eviction &eviction, Cut &cut) const {
     uint64_t order[LeafShape::most_slots];
     size_t asked = 0;
-    for (size_t i = cut.prefix; i < node.count[leaf]; ++i)
+    for (size_t i = cut.prefix; i < node.leaf[leaf].count; ++i)
         if (!cut.marks[i] && time_at(node, leaf, i) >= cutoff)
             order[asked++] = key_at(node, leaf, i) * LeafShape::most_slots + i;
     std::sort(order, order + asked);
@@ -98,7 +98,7 @@ void RingLeaves::remove(std::vector<Cut> &cuts, Departures &departures) {
     leaving.reserve(total);
     for (const Cut &cut : cuts) {
         const Node &node = own(cut.node);
-        for (size_t i = 0, count = node.count[cut.leaf]; i < count; ++i)
+        for (size_t i = 0, count = node.leaf[cut.leaf].count; i < count; ++i)
             if (i < cut.prefix || cut.marks[i])
                 leaving.add(record_at(node, cut.leaf, i));
     }
@@ -121,7 +121,7 @@ void RingLeaves::remove(std::vector<Cut> &cuts, Departures &departures) {
 
 void RingLeaves::apply(const Cut &cut) noexcept {
     Node &node = *directory()[cut.node];
-    const size_t leaf = cut.leaf, count = node.count[leaf];
+    const size_t leaf = cut.leaf, count = node.leaf[leaf].count;
     if (ages_.wanted()) {
         for (size_t i = 0; i < count; ++i)
             if ((i < cut.prefix || cut.marks[i]) && time_at(node, leaf, i) >= edition().moment.cutoff)
@@ -131,9 +131,9 @@ void RingLeaves::apply(const Cut &cut) noexcept {
         pop(node, leaf, cut.prefix);
         return;
     }
-    const LeafMemory old = node.leaf[leaf];
-    const uint64_t born = node.born[leaf];
-    Target rest{alone_ ? old : cut.fresh, alone_ ? node.head[leaf] : size_t{0}};
+    const LeafMemory old = node.leaf[leaf].memory;
+    const uint64_t born = node.leaf[leaf].born;
+    Target rest{alone_ ? old : cut.fresh, alone_ ? node.leaf[leaf].head : size_t{0}};
     for (size_t i = cut.prefix; i < count; ++i)
         if (!cut.marks[i])
             add(rest, key_at(node, leaf, i), record_at(node, leaf, i));
@@ -144,18 +144,18 @@ void RingLeaves::apply(const Cut &cut) noexcept {
 }
 
 void RingLeaves::pop(Node &node, size_t leaf, size_t entries) noexcept {
-    node.head[leaf] = static_cast<uint16_t>(shape_.slot(node.head[leaf], entries) % shape_.slots);
-    node.count[leaf] = static_cast<uint16_t>(node.count[leaf] - entries);
+    node.leaf[leaf].head = static_cast<uint16_t>(shape_.slot(node.leaf[leaf].head, entries) % shape_.slots);
+    node.leaf[leaf].count = static_cast<uint16_t>(node.leaf[leaf].count - entries);
     node.total -= static_cast<uint32_t>(entries);
     if (!alone_) {
-        node.ghosts[leaf] = static_cast<uint16_t>(node.ghosts[leaf] + entries);
+        node.leaf[leaf].ghosts = static_cast<uint16_t>(node.leaf[leaf].ghosts + entries);
         node.ghost_version = change_;
     }
-    if (node.count[leaf] == 0) {
-        node.oldest[leaf] = INT64_MAX;
+    if (node.leaf[leaf].count == 0) {
+        node.leaf[leaf].oldest = INT64_MAX;
         node.set_ordered(leaf, true);
     } else if (node.is_ordered(leaf)) {
-        node.oldest[leaf] = time_at(node, leaf, 0);
+        node.leaf[leaf].oldest = time_at(node, leaf, 0);
     }
 }
 
@@ -241,8 +241,8 @@ void RingLeaves::erase(const Selection &selection, Departures &departures) {
                 cuts.emplace_back(position, leaf);
             Cut &cut = cuts.back();
             const Block block = view.slots_of(node, leaf);
-            for (size_t i = 0; i < node.count[leaf]; ++i) {
-                if (!cut.marks[i] && accepted(block, shape_.slot(node.head[leaf], i))) {
+            for (size_t i = 0; i < node.leaf[leaf].count; ++i) {
+                if (!cut.marks[i] && accepted(block, shape_.slot(node.leaf[leaf].head, i))) {
                     cut.marks.set(i);
                     ++cut.marked;
                 }
@@ -252,7 +252,7 @@ void RingLeaves::erase(const Selection &selection, Departures &departures) {
     });
     std::erase_if(cuts, [](const Cut &cut) { return cut.marked == 0; });
     for (Cut &cut : cuts)
-        if (cut.marked == now.directory[cut.node]->count[cut.leaf])
+        if (cut.marked == now.directory[cut.node]->leaf[cut.leaf].count)
             cut.everything();
     const Change change(*this, now.stored <= most_alone);
     remove(cuts, departures);

@@ -5,6 +5,7 @@
 #include "pmq/eviction.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace locus::pmq {
 namespace {
@@ -59,14 +60,15 @@ void RingLeaves::append_group(const Batch &batch, size_t begin, size_t end, size
         Spot &spot = spots[i - begin];
         const Node &node = own(spot.node);
         spot.leaf = node.find(batch.keys[i]);
-        const size_t slot = shape_.slot(node.head[spot.leaf], node.count[spot.leaf]);
-        __builtin_prefetch(shape_.keys(node.leaf[spot.leaf]) + slot, 1);
-        const std::byte *record = shape_.record(node.leaf[spot.leaf], slot);
-        __builtin_prefetch(record, 1);
-        if (format_.size > 64) {
-            __builtin_prefetch(record + 64, 1);
-            __builtin_prefetch(record + 128, 1);
-        }
+        __builtin_prefetch(&node.leaf[spot.leaf], 1);
+    }
+    for (const Spot &spot : std::span(spots, end - begin)) {
+        const LeafEntry &leaf = directory()[spot.node]->leaf[spot.leaf];
+        const size_t slot = shape_.slot(leaf.head, leaf.count);
+        __builtin_prefetch(shape_.keys(leaf.memory) + slot, 1);
+        const std::byte *record = shape_.record(leaf.memory, slot);
+        for (size_t at = 0; at < format_.size; at += 64)
+            __builtin_prefetch(record + at, 1);
     }
     const uint64_t structure = structure_;
     for (size_t i = begin; i < end; ++i, ++done) {
@@ -74,7 +76,7 @@ void RingLeaves::append_group(const Batch &batch, size_t begin, size_t end, size
         Spot spot = structure == structure_ ? spots[i - begin] : find(key);
         for (;;) {
             const Node &node = own(spot.node);
-            if (node.count[spot.leaf] + node.ghosts[spot.leaf] < shape_.slots)
+            if (node.leaf[spot.leaf].count + node.leaf[spot.leaf].ghosts < shape_.slots)
                 break;
             make_room(spot, key);
             spot = find(key);
@@ -84,17 +86,17 @@ void RingLeaves::append_group(const Batch &batch, size_t begin, size_t end, size
 }
 
 void RingLeaves::put(Node &node, size_t leaf, uint64_t key, Bytes record) noexcept {
-    const size_t count = node.count[leaf];
-    const size_t slot = shape_.slot(node.head[leaf], count);
+    LeafEntry &to = node.leaf[leaf];
+    const size_t slot = shape_.slot(to.head, to.count);
     const int64_t time = format_.time(record);
     if (time >= newest_)
         newest_ = time;
-    else if (count > 0 && time < time_at(node, leaf, count - 1))
+    else if (to.count > 0 && time < time_at(node, leaf, to.count - 1u))
         node.set_ordered(leaf, false);
-    node.oldest[leaf] = std::min(node.oldest[leaf], time);
-    shape_.keys(node.leaf[leaf])[slot] = key;
-    copy_record(shape_.record(node.leaf[leaf], slot), record, format_.size);
-    ++node.count[leaf];
+    shape_.keys(to.memory)[slot] = key;
+    copy_record(shape_.record(to.memory, slot), record, format_.size);
+    to.oldest = std::min(to.oldest, time);
+    ++to.count;
     ++node.total;
 }
 
@@ -110,14 +112,14 @@ void RingLeaves::take_back(const Batch &batch, size_t done) noexcept {
         const uint64_t key = batch.keys[done];
         Spot spot = find(key);
         Node *node = directory()[spot.node];
-        while (node->count[spot.leaf] == 0 || key_at(*node, spot.leaf, node->count[spot.leaf] - 1u) != key) {
+        while (node->leaf[spot.leaf].count == 0 || key_at(*node, spot.leaf, node->leaf[spot.leaf].count - 1u) != key) {
             if (spot.leaf == 0) {
                 node = directory()[--spot.node];
                 spot.leaf = node->leaves;
             }
             --spot.leaf;
         }
-        --node->count[spot.leaf];
+        --node->leaf[spot.leaf].count;
         --node->total;
     }
 }
@@ -129,7 +131,7 @@ void RingLeaves::make_room(const Spot &spot, uint64_t key) {
         return;
     }
     const Node &node = own(spot.node);
-    if (node.count[spot.leaf] <= shape_.slots / 2) { // full of ghosts
+    if (node.leaf[spot.leaf].count <= shape_.slots / 2) { // full of ghosts
         relocate(spot.node, spot.leaf);
         return;
     }
@@ -170,7 +172,7 @@ void RingLeaves::split_node(size_t position) {
 uint64_t RingLeaves::pivot(const Node &node, size_t leaf) const noexcept {
     constexpr size_t samples = 33;
     uint64_t sample[samples];
-    const size_t count = node.count[leaf];
+    const size_t count = node.leaf[leaf].count;
     for (size_t i = 0; i < samples; ++i)
         sample[i] = key_at(node, leaf, i * (count - 1) / (samples - 1));
     std::nth_element(sample, sample + samples / 2, sample + samples);
@@ -191,7 +193,7 @@ uint64_t RingLeaves::pivot(const Node &node, size_t leaf) const noexcept {
 void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
     expect_garbage(1);
     const LeafMemory right = slabs_.take();
-    LeafMemory left = directory()[position]->leaf[leaf];
+    LeafMemory left = directory()[position]->leaf[leaf].memory;
     if (!alone_) {
         try {
             left = slabs_.take();
@@ -201,10 +203,10 @@ void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
         }
     }
     Node &node = *directory()[position];
-    const LeafMemory old = node.leaf[leaf];
-    const uint64_t born = node.born[leaf];
-    Target low{left, alone_ ? node.head[leaf] : size_t{0}}, high{right, 0};
-    for (size_t i = 0, count = node.count[leaf]; i < count; ++i) {
+    const LeafMemory old = node.leaf[leaf].memory;
+    const uint64_t born = node.leaf[leaf].born;
+    Target low{left, alone_ ? node.leaf[leaf].head : size_t{0}}, high{right, 0};
+    for (size_t i = 0, count = node.leaf[leaf].count; i < count; ++i) {
         const uint64_t key = key_at(node, leaf, i);
         add(key < pivot ? low : high, key, record_at(node, leaf, i));
     }
@@ -224,10 +226,10 @@ void RingLeaves::relocate(size_t position, size_t leaf) {
     expect_garbage(1);
     Target target{slabs_.take(), 0};
     Node &node = *directory()[position];
-    for (size_t i = 0, count = node.count[leaf]; i < count; ++i)
+    for (size_t i = 0, count = node.leaf[leaf].count; i < count; ++i)
         add(target, key_at(node, leaf, i), record_at(node, leaf, i));
     counters_.moved += target.count;
-    retire(node.leaf[leaf], node.born[leaf]);
+    retire(node.leaf[leaf].memory, node.leaf[leaf].born);
     install(node, leaf, target);
 }
 
@@ -246,16 +248,16 @@ void RingLeaves::add(Target &target, uint64_t key, Bytes record) const noexcept 
 
 // The target holds what the leaf has held, or a part of it.
 void RingLeaves::install(Node &node, size_t leaf, const Target &target) noexcept {
-    node.total -= node.count[leaf];
-    if (node.leaf[leaf] != target.memory)
-        node.born[leaf] = change_;
-    node.leaf[leaf] = target.memory;
-    node.head[leaf] = static_cast<uint16_t>(target.head);
-    node.count[leaf] = static_cast<uint16_t>(target.count);
-    node.ghosts[leaf] = 0;
-    node.oldest[leaf] = target.oldest;
+    node.total -= node.leaf[leaf].count;
+    if (node.leaf[leaf].memory != target.memory)
+        node.leaf[leaf].born = change_;
+    node.leaf[leaf].memory = target.memory;
+    node.leaf[leaf].head = static_cast<uint16_t>(target.head);
+    node.leaf[leaf].count = static_cast<uint16_t>(target.count);
+    node.leaf[leaf].ghosts = 0;
+    node.leaf[leaf].oldest = target.oldest;
     node.set_ordered(leaf, target.ordered);
-    node.total += node.count[leaf];
+    node.total += node.leaf[leaf].count;
 }
 
 } // namespace locus::pmq

@@ -166,7 +166,8 @@ Node &RingLeaves::own(size_t position) {
     }
     node->version = change_;
     if (node->ghost_version != 0 && (alone_ || node->ghost_version <= oldest_read_)) {
-        std::fill_n(node->ghosts, Node::fanout, uint16_t{0});
+        for (LeafEntry &leaf : node->leaf)
+            leaf.ghosts = 0;
         node->ghost_version = 0;
     }
     return *node;

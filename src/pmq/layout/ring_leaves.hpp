@@ -136,10 +136,10 @@ private:
     void merge_nodes(size_t position);
 
     uint64_t key_at(const Node &node, size_t leaf, size_t entry) const noexcept {
-        return shape_.keys(node.leaf[leaf])[shape_.slot(node.head[leaf], entry)];
+        return shape_.keys(node.leaf[leaf].memory)[shape_.slot(node.leaf[leaf].head, entry)];
     }
     Bytes record_at(const Node &node, size_t leaf, size_t entry) const noexcept {
-        return shape_.record(node.leaf[leaf], shape_.slot(node.head[leaf], entry));
+        return shape_.record(node.leaf[leaf].memory, shape_.slot(node.leaf[leaf].head, entry));
     }
     int64_t time_at(const Node &node, size_t leaf, size_t entry) const noexcept {
         return format_.time(record_at(node, leaf, entry));

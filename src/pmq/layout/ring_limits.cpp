@@ -78,7 +78,7 @@ void RingLeaves::refine(const Ages::Bin &bin, int64_t cutoff) {
     for (size_t n = 0; n < directory().size(); ++n) {
         const Node &node = *directory()[n];
         for (size_t leaf = 0; leaf < node.leaves; ++leaf)
-            for (size_t i = 0; i < node.count[leaf]; ++i)
+            for (size_t i = 0; i < node.leaf[leaf].count; ++i)
                 if (const int64_t time = time_at(node, leaf, i); time >= from && time <= bin.last)
                     times.push_back(time);
     }
@@ -94,14 +94,14 @@ void RingLeaves::drop_equal(int64_t time, uint64_t count, Departures &departures
         const Node &node = *now.directory[n];
         for (size_t leaf = 0; leaf < node.leaves && count > 0; ++leaf) {
             Cut cut(n, leaf);
-            for (size_t i = 0; i < node.count[leaf] && count > 0; ++i) {
+            for (size_t i = 0; i < node.leaf[leaf].count && count > 0; ++i) {
                 if (time_at(node, leaf, i) == time) {
                     cut.marks.set(i);
                     ++cut.marked;
                     --count;
                 }
             }
-            if (cut.marked == node.count[leaf])
+            if (cut.marked == node.leaf[leaf].count)
                 cut.everything();
             if (cut.marked > 0 || cut.prefix > 0)
                 cuts.push_back(cut);

@@ -10,9 +10,9 @@ void RingLeaves::tidy(size_t position) noexcept {
     try {
         for (size_t i = directory()[position]->leaves; i-- > 0;) {
             const Node &node = *directory()[position];
-            if (i + 1 < node.leaves && size_t{node.count[i]} + node.count[i + 1] < shape_.slots / 2)
+            if (i + 1 < node.leaves && size_t{node.leaf[i].count} + node.leaf[i + 1].count < shape_.slots / 2)
                 merge_leaves(position, i);
-            else if (slabs_.vacating(node.leaf[i])) {
+            else if (slabs_.vacating(node.leaf[i].memory)) {
                 own(position);
                 relocate(position, i);
             }
@@ -32,7 +32,7 @@ void RingLeaves::tidy_all() noexcept {
 // Take an empty leaf out; the one before, or for the first the one behind, takes over its keys.
 void RingLeaves::drop_leaf(Node &node, size_t leaf) noexcept {
     const uint64_t separator = node.separators[leaf];
-    retire(node.leaf[leaf], node.born[leaf]);
+    retire(node.leaf[leaf].memory, node.leaf[leaf].born);
     node.remove(leaf);
     if (leaf == 0)
         node.separators[0] = separator;
@@ -45,7 +45,7 @@ void RingLeaves::merge_leaves(size_t position, size_t leaf) {
     Node &node = own(position);
     expect_garbage(2);
     for (const size_t empty : {leaf + 1, leaf}) {
-        if (node.count[empty] == 0) {
+        if (node.leaf[empty].count == 0) {
             drop_leaf(node, empty);
             return;
         }
@@ -54,17 +54,17 @@ void RingLeaves::merge_leaves(size_t position, size_t leaf) {
     merge_in_time(target, node, leaf, leaf + 1);
     counters_.moved += target.count;
     ++counters_.rebalances;
-    retire(node.leaf[leaf], node.born[leaf]);
+    retire(node.leaf[leaf].memory, node.leaf[leaf].born);
     install(node, leaf, target);
-    node.total -= node.count[leaf + 1];
-    node.count[leaf + 1] = 0;
+    node.total -= node.leaf[leaf + 1].count;
+    node.leaf[leaf + 1].count = 0;
     drop_leaf(node, leaf + 1);
 }
 
 // Merge by time, so that what expires stays a prefix. Where that might put equal keys out of the order of their
 // arrival, the left leaf's entries come first.
 void RingLeaves::merge_in_time(Target &target, const Node &node, size_t left, size_t right) const noexcept {
-    const size_t lefts = node.count[left], rights = node.count[right];
+    const size_t lefts = node.leaf[left].count, rights = node.leaf[right].count;
     bool in_time = node.is_ordered(left) && node.is_ordered(right);
     for (size_t i = 0; i < lefts && in_time; ++i)
         in_time = key_at(node, left, i) != node.separators[right];

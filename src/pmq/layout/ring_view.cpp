@@ -10,9 +10,9 @@ namespace locus::pmq {
 size_t first_not_before(const RecordFormat &format, const LeafShape &shape, const Node &node, size_t leaf,
                         int64_t time) noexcept {
     const auto older = [&](size_t entry) {
-        return format.time(shape.record(node.leaf[leaf], shape.slot(node.head[leaf], entry))) < time;
+        return format.time(shape.record(node.leaf[leaf].memory, shape.slot(node.leaf[leaf].head, entry))) < time;
     };
-    const size_t count = node.count[leaf];
+    const size_t count = node.leaf[leaf].count;
     size_t begin = 0, step = 1; // all before `begin` are older
     while (begin + step <= count && older(begin + step - 1)) {
         begin += step;
@@ -91,9 +91,9 @@ uint64_t RingView::count(const Place &place, const KeyRange &keys, int64_t from)
 
 uint64_t RingView::count_leaf(size_t position, size_t leaf, const KeyRange &keys, int64_t from) const noexcept {
     const Node &node = *edition_.directory[position];
-    const size_t count = node.count[leaf];
-    const bool all_young = node.oldest[leaf] >= from;
-    const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf]);
+    const size_t count = node.leaf[leaf].count;
+    const bool all_young = node.leaf[leaf].oldest >= from;
+    const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf].memory);
     if (within(position, leaf, keys)) {
         if (all_young)
             return count;
@@ -104,21 +104,21 @@ uint64_t RingView::count_leaf(size_t position, size_t leaf, const KeyRange &keys
     const bool ask_time = !all_young && !node.is_ordered(leaf);
     uint64_t total = 0;
     for (size_t i = begin; i < count; ++i) {
-        const size_t slot = shape_.slot(node.head[leaf], i);
-        total +=
-            keys.contains(leaf_keys[slot]) && (!ask_time || format_.time(shape_.record(node.leaf[leaf], slot)) >= from);
+        const size_t slot = shape_.slot(node.leaf[leaf].head, i);
+        total += keys.contains(leaf_keys[slot]) &&
+                 (!ask_time || format_.time(shape_.record(node.leaf[leaf].memory, slot)) >= from);
     }
     return total;
 }
 
 Block RingView::slots_of(const Node &node, size_t leaf) const noexcept {
     Block block;
-    block.keys = node.leaf[leaf];
-    block.records = shape_.record(node.leaf[leaf], 0);
+    block.keys = node.leaf[leaf].memory;
+    block.records = shape_.record(node.leaf[leaf].memory, 0);
     block.key_stride = sizeof(uint64_t);
     block.record_stride = shape_.record_size;
     block.count = shape_.slots;
-    block.oldest = node.oldest[leaf];
+    block.oldest = node.leaf[leaf].oldest;
     block.times_ascend = node.is_ordered(leaf);
     return block;
 }
@@ -126,7 +126,7 @@ Block RingView::slots_of(const Node &node, size_t leaf) const noexcept {
 bool RingView::scan(const Place &place, const KeyRange &keys, Order order,
                     FunctionRef<bool(const Block &)> visit) const {
     return for_each_leaf(place, [&](size_t position, size_t leaf) {
-        if (edition_.directory[position]->count[leaf] == 0)
+        if (edition_.directory[position]->leaf[leaf].count == 0)
             return true;
         return order == Order::any ? scan_ring(position, leaf, keys, visit) : scan_sorted(position, leaf, keys, visit);
     });
@@ -135,7 +135,7 @@ bool RingView::scan(const Place &place, const KeyRange &keys, Order order,
 // Where times are in order, what has expired is left out.
 size_t RingView::first_live(const Node &node, size_t leaf, Block &block) const noexcept {
     const int64_t cutoff = edition_.moment.cutoff;
-    if (node.oldest[leaf] >= cutoff || !node.is_ordered(leaf))
+    if (node.leaf[leaf].oldest >= cutoff || !node.is_ordered(leaf))
         return 0;
     block.oldest = cutoff;
     return first_not_before(format_, shape_, node, leaf, cutoff);
@@ -151,11 +151,11 @@ bool RingView::scan_ring(size_t position, size_t leaf, const KeyRange &keys,
     block.lowest = node.separators[leaf];
     block.highest = highest(position, leaf);
     size_t entry = first_live(node, leaf, block);
-    while (entry < node.count[leaf]) {
-        const size_t slot = shape_.slot(node.head[leaf], entry);
+    while (entry < node.leaf[leaf].count) {
+        const size_t slot = shape_.slot(node.leaf[leaf].head, entry);
         block.keys = all.keys + slot * all.key_stride;
         block.records = all.record(slot);
-        block.count = std::min(node.count[leaf] - entry, shape_.slots - slot);
+        block.count = std::min(node.leaf[leaf].count - entry, shape_.slots - slot);
         if (!visit(block))
             return false;
         entry += block.count;
@@ -225,9 +225,9 @@ bool RingView::scan_sorted(size_t position, size_t leaf, const KeyRange &keys,
     const Node &node = *edition_.directory[position];
     Block block = slots_of(node, leaf);
     LeafOrder order;
-    const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf]);
-    for (size_t i = first_live(node, leaf, block); i < node.count[leaf]; ++i) {
-        const size_t slot = shape_.slot(node.head[leaf], i);
+    const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf].memory);
+    for (size_t i = first_live(node, leaf, block); i < node.leaf[leaf].count; ++i) {
+        const size_t slot = shape_.slot(node.leaf[leaf].head, i);
         if (!keys.contains(leaf_keys[slot]))
             continue;
         order.add(leaf_keys[slot], slot);
