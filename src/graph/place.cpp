@@ -1,7 +1,6 @@
 // Seed placement: farthest-point sampling, then Lloyd's iterations on the graph's metric (Faure et al. 2011).
 #include "core/error.hpp"
 #include "graph/diagram.hpp"
-#include "graph/spread.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,79 +33,103 @@ std::shared_ptr<const Graph> metric_of(const std::shared_ptr<const Graph> &graph
     return std::make_shared<const Graph>(graph->uniform());
 }
 
-// The lattice with distances to all seeds so far; each further seed visits its own cell only.
-template <typename Word, typename Place>
+// The distance to each voxel's nearest seed so far, kept by the brick engine's updates: a further seed costs what its
+// own cell does. The largest distance of every row of voxels along x is kept, too.
+template <typename Word>
 class Sampler {
 public:
-    explicit Sampler(const Graph &metric) : lattice_(metric) {}
+    explicit Sampler(const Graph &metric)
+        : metric_(metric), engine_(make_engine(LOCUS_ENGINE_BRICKS)), rows_(metric.grid().ny() * metric.grid().nz()) {}
 
-    void add(std::span<const Source> sources) {
+    // The distances to these sources: anew, or with one more source than before.
+    void measure(std::span<const Source> sources, bool anew) {
         Progress unheard;
-        const Problem problem{lattice_.graph(), sources};
-        const Report report = spread(problem, lattice_, unheard, false);
-        if (!report.clipped)
-            return;
-        Words words;
-        lattice_.give(words);
-        check_overflow(problem, words, report);
+        const Problem problem{metric_, sources};
+        Change change;
+        for (size_t axis = 0; axis < 3; ++axis)
+            change.box.extent[axis] = metric_.grid().dims()[axis];
+        const Report report =
+            anew ? engine_->solve(problem, words_, unheard) : engine_->update(problem, words_, unheard, change);
+        if (anew || found_unreached_) // a source in a part that is reached makes nothing farther
+            check_overflow(problem, words_, report);
+        look_at_rows(change.box);
     }
 
     // The voxel with the largest distance, unreached ones first, the lowest index of several.
     uint64_t farthest() {
-        const WordLayout &layout = lattice_.graph().layout();
-        Word most = 0; // below every passable voxel's word but those at distance 0, which lie under a seed
-        size_t at = 0;
-        bool found = false;
-        const std::vector<Word> &words = lattice_.words();
-        for (size_t i = 0; i < words.size(); ++i) {
-            const auto distance = static_cast<Word>(layout.distance(words[i]));
-            if (distance > most) {
-                most = distance;
-                at = i;
-                found = true;
-            }
-        }
-        return found ? lattice_.voxel(static_cast<Place>(at)) : lowest_passable();
+        const auto most = std::max_element(rows_.begin(), rows_.end()); // the first of several
+        if (*most == 0)
+            return lowest_passable(); // every voxel lies under a seed
+        found_unreached_ = *most == metric_.layout().distance(metric_.layout().unreached());
+        const uint64_t nx = metric_.grid().nx();
+        uint64_t voxel = static_cast<uint64_t>(most - rows_.begin()) * nx;
+        while (distance(voxel) != *most)
+            ++voxel;
+        return voxel;
     }
 
     uint64_t lowest_passable() const {
         uint64_t voxel = 0;
-        while (!lattice_.graph().passable(voxel))
+        while (!metric_.passable(voxel))
             ++voxel;
         return voxel;
     }
 
 private:
-    Lattice<Word, Place> lattice_;
+    // 0 for impassable voxels.
+    Word distance(uint64_t voxel) const {
+        return metric_.passable(voxel)
+                   ? static_cast<Word>(metric_.layout().distance(std::get<std::vector<Word>>(words_)[voxel]))
+                   : Word{0};
+    }
+    void look_at_rows(const Box &box) {
+        const Grid &grid = metric_.grid();
+        for (uint64_t z = box.origin[2]; z < box.origin[2] + box.extent[2]; ++z)
+            for (uint64_t y = box.origin[1]; y < box.origin[1] + box.extent[1]; ++y) {
+                Word most = 0;
+                for (uint64_t voxel = grid.index(0, y, z), end = voxel + grid.nx(); voxel < end; ++voxel)
+                    most = std::max(most, distance(voxel));
+                rows_[y + grid.ny() * z] = most;
+            }
+    }
+
+    const Graph &metric_;
+    std::unique_ptr<Engine> engine_;
+    Words words_;
+    std::vector<Word> rows_;
+    bool found_unreached_ = false; // the voxel that farthest() named last is unreached
 };
 
 // Add `count` seeds to `seeds`; told(n) after each.
+template <typename Word, typename Told>
+void sample_by(const Graph &metric, std::vector<Placed> &seeds, uint64_t count, Told &&told) {
+    uint64_t done = 0;
+    Sampler<Word> sampler(metric);
+    const auto take = [&] {
+        seeds.push_back({sampler.farthest(), 0, false});
+        told(++done);
+    };
+    if (seeds.empty()) {
+        const Source corner{sampler.lowest_passable(), 0, 0};
+        sampler.measure({&corner, 1}, true);
+        take();
+    }
+    std::vector<Source> sources = sources_of(metric, seeds);
+    for (bool anew = true; done < count; anew = false) {
+        sampler.measure(sources, anew);
+        take();
+        sources.push_back({seeds.back().voxel, 0, static_cast<uint32_t>(sources.size())});
+    }
+}
+
 template <typename Told>
 void sample(const Graph &metric, std::vector<Placed> &seeds, uint64_t count, Told &&told) {
     if (count == 0)
         return;
-    const auto with = [&]<typename Word, typename Place>(Lattice<Word, Place> *) {
-        uint64_t done = 0;
-        if (seeds.empty()) {
-            Sampler<Word, Place> first(metric);
-            const Source corner{first.lowest_passable(), 0, 0};
-            first.add({&corner, 1});
-            seeds.push_back({first.farthest(), 0, false});
-            told(++done);
-        }
-        Sampler<Word, Place> sampler(metric);
-        sampler.add(sources_of(metric, seeds));
-        while (done < count) {
-            const Source next{sampler.farthest(), 0, static_cast<uint32_t>(seeds.size())};
-            seeds.push_back({next.voxel, 0, false});
-            sampler.add({&next, 1});
-            told(++done);
-        }
-    };
     if (metric.layout().bits == 32)
-        with(static_cast<Lattice<uint32_t, uint64_t> *>(nullptr));
+        sample_by<uint32_t>(metric, seeds, count, told);
     else
-        with(static_cast<Lattice<uint64_t, uint64_t> *>(nullptr));
+        sample_by<uint64_t>(metric, seeds, count, told);
 }
 
 // The voxel of each cell that lies closest to the cell's centroid (Euclidean, by spacing; the lowest index of several);
@@ -157,19 +180,23 @@ std::vector<uint64_t> centres(const Graph &metric, const Words &words, size_t ce
     return nearest;
 }
 
-// One round of Lloyd; whether some seed has moved.
-bool lloyd(const Graph &metric, Engine &engine, std::vector<Placed> &seeds, Words &words, Progress &progress) {
+// One round of Lloyd; returns how many seeds have moved. Where few moved in the round before, only their cells and
+// those around are looked at again.
+size_t lloyd(const Graph &metric, Engine &engine, bool anew, std::vector<Placed> &seeds, Words &words,
+             Progress &progress) {
     const std::vector<Source> sources = sources_of(metric, seeds);
     const Problem problem{metric, sources};
-    const Report report = engine.solve(problem, words, progress);
+    Change change;
+    const Report report =
+        anew ? engine.solve(problem, words, progress) : engine.update(problem, words, progress, change);
     check_overflow(problem, words, report);
     const std::vector<uint64_t> to = centres(metric, words, seeds.size());
-    bool moved = false;
+    size_t moved = 0;
     for (size_t i = 0; i < seeds.size(); ++i) {
         if (seeds[i].fixed || to[i] == UINT64_MAX || to[i] == seeds[i].voxel)
             continue;
         seeds[i].voxel = to[i];
-        moved = true;
+        ++moved;
     }
     return moved;
 }
@@ -205,10 +232,13 @@ void Diagram::place_seeds(const locus_place_options &options) {
     sample(*metric, placed, options.count, [&](uint64_t done) { progress.report(static_cast<double>(done) / parts); });
     const auto engine = make_engine(options_.engine);
     Words words;
+    size_t moved = placed.size();
     for (uint32_t round = 0; round < options.lloyd_iterations && !placed.empty(); ++round) {
         const double before = (static_cast<double>(options.count) + round) / parts;
         progress.part(before, before + 1 / parts);
-        if (!lloyd(*metric, *engine, placed, words, progress))
+        const bool anew = moved > placed.size() / 4; // an update takes a moved seed's cell away and fills it again
+        moved = lloyd(*metric, *engine, anew, placed, words, progress);
+        if (moved == 0)
             break;
     }
     progress.part(0, 1);
