@@ -2,25 +2,36 @@
 #include "core/zcurve.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
+
+#define LOCUS_LANES_NAMESPACE scalar
+#define LOCUS_INLINE inline
+#include "core/mercator-inl.hpp"
 
 namespace locus {
 namespace {
 
-constexpr double last_coordinate = 1.0 - 0x1p-40; // below 1 at every level in use
+struct ScalarOps {
+    double set(double value) const noexcept { return value; }
+    double min(double a, double b) const noexcept { return std::min(a, b); }
+    double max(double a, double b) const noexcept { return std::max(a, b); }
+    double zero_where_at_least(double a, double bound, double b) const noexcept { return a >= bound ? 0.0 : b; }
+    // q = 2^k m with m in sqrt(1/2)..sqrt(2): subtracting the bits of sqrt(1/2) leaves k in the exponent's place; its
+    // 12 bits, put into the last places of 2^52 with a bias, make a double of it.
+    void split(double q, double &k, double &m) const noexcept {
+        const auto bits = std::bit_cast<uint64_t>(q);
+        const uint64_t exponent = (bits - scalar::half_root_bits) >> 52;
+        m = std::bit_cast<double>(bits - (exponent << 52));
+        k = std::bit_cast<double>(((exponent + 0x800) & 0xFFF) | scalar::two_52_bits) - (0x1p52 + 0x800);
+    }
+};
 
 } // namespace
 
 MapPoint map_point(double latitude, double longitude) noexcept {
-    const double x = longitude >= 180.0 ? 0.0 : std::min((longitude + 180.0) / 360.0, last_coordinate);
-    if (latitude >= mercator_latitude)
-        return {x, 0.0};
-    if (latitude <= -mercator_latitude)
-        return {x, last_coordinate};
-    const double sine = std::sin(latitude * (std::numbers::pi / 180.0));
-    const double y = 0.5 - std::log((1.0 + sine) / (1.0 - sine)) / (4.0 * std::numbers::pi);
-    return {x, std::clamp(y, 0.0, last_coordinate)};
+    return {scalar::map_x(ScalarOps(), longitude), scalar::map_y(ScalarOps(), latitude)};
 }
 
 uint64_t key_of(double latitude, double longitude) noexcept {

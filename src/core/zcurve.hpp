@@ -9,6 +9,7 @@ namespace locus {
 constexpr unsigned key_levels = 25;                                 // the quadtree's depth: tiles at zoom 25
 constexpr uint64_t key_end = uint64_t{1} << (2 * key_levels);       // one past the last key
 constexpr double mercator_latitude = 85.05112877980659;             // where the Web-Mercator square ends
+constexpr double last_coordinate = 1.0 - 0x1p-40;                   // below 1 at every level in use
 constexpr uint64_t key_x_mask = 0x5555555555555555 & (key_end - 1); // the bits of x; y has the others, the higher ones
 constexpr uint64_t key_y_mask = 0xAAAAAAAAAAAAAAAA & (key_end - 1);
 

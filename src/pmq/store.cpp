@@ -60,12 +60,19 @@ void Store::check_record(Bytes record, size_t index, int64_t now) const {
 Batch Store::checked(Bytes records, size_t count, int64_t now) {
     keys_.resize(count);
     int64_t oldest = INT64_MAX, youngest = INT64_MIN;
-    for (size_t i = 0; i < count; ++i) {
-        const Bytes record = records + i * format_.size;
-        check_record(record, i, now);
-        keys_[i] = key_of(format_.latitude(record), format_.longitude(record));
-        oldest = std::min(oldest, format_.time(record));
-        youngest = std::max(youngest, format_.time(record));
+    constexpr size_t chunk = 128;
+    double latitudes[chunk], longitudes[chunk];
+    for (size_t begin = 0; begin < count; begin += chunk) {
+        const size_t size = std::min(chunk, count - begin);
+        for (size_t i = 0; i < size; ++i) {
+            const Bytes record = records + (begin + i) * format_.size;
+            check_record(record, begin + i, now);
+            latitudes[i] = format_.latitude(record);
+            longitudes[i] = format_.longitude(record);
+            oldest = std::min(oldest, format_.time(record));
+            youngest = std::max(youngest, format_.time(record));
+        }
+        find_keys_(latitudes, longitudes, keys_.data() + begin, size);
     }
     if (youngest > now) {
         clamped_.assign(records, records + count * format_.size);

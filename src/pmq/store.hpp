@@ -2,6 +2,7 @@
 // leaves.
 #pragma once
 
+#include "core/mercator.hpp"
 #include "pmq/departures.hpp"
 #include "pmq/eviction.hpp"
 #include "pmq/layout/layout.hpp"
@@ -57,6 +58,7 @@ private:
     const locus_pmq_options options_;
     const RecordFormat &format_;
     const std::unique_ptr<Layout> layout_;
+    const KeysOf find_keys_ = keys_of(simd_best());
     Departures departures_;
     int64_t now_ = INT64_MIN;
     std::vector<uint64_t> keys_;     // of the batch at work
