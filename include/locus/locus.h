@@ -3,7 +3,8 @@
  * Locus keeps data that changes all the time close in memory. It holds two engines:
  * - the voxel graph (locus/graph.h, locus/diagram.h, locus/weights.h): compliance distances, Voronoi diagrams and
  *   interpolation weights on 3-D material maps;
- * - the PMQ (locus/pmq.h): the live window of a stream of geo-located records, sorted along the Z-curve.
+ * - the PMQ (locus/pmq.h): the live window of a stream of geo-located records, sorted along the Z-curve; and what
+ * stands out in it (locus/alerts.h).
  *
  * Rules that hold everywhere:
  * - Errors: see locus/status.h. No exception, abort, exit or print ever leaves the library.
@@ -20,6 +21,7 @@
 #ifndef LOCUS_LOCUS_H
 #define LOCUS_LOCUS_H
 
+#include <locus/alerts.h>
 #include <locus/diagram.h>
 #include <locus/graph.h>
 #include <locus/pmq.h>

@@ -227,8 +227,8 @@ LOCUS_API void locus_pmq_destroy(locus_pmq *pmq) LOCUS_NOEXCEPT;
  * sink. A record that is already older than the horizon is evicted like any other and never seen by a query. Errors
  * that store nothing: LOCUS_E_ARGUMENT (coordinates that are NaN or out of range, a time after `now` unless clamped:
  * the text names the first such record's index and value; a clock that runs back), LOCUS_E_MEMORY. LOCUS_E_STOPPED: the
- * batch is stored and visible, but the predicate or the sink stopped. LOCUS_E_BUSY. Beside readers. Since
- * 0.1. */
+ * batch is stored and visible, but the predicate, the sink or a callback of locus/alerts.h stopped. LOCUS_E_BUSY.
+ * Beside readers. Since 0.1. */
 LOCUS_API locus_status locus_pmq_insert(locus_pmq *pmq, const void *records, size_t count, int64_t now) LOCUS_NOEXCEPT;
 
 /* Set the clock to `now` and evict everything that may go: expired records, those the predicate permits, what exceeds

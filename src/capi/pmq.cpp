@@ -1,29 +1,19 @@
 // locus/pmq.h
 #include "capi/boundary.hpp"
+#include "capi/pmq_handles.hpp"
 #include "core/options.hpp"
 #include "pmq/options.hpp"
-#include "pmq/query/circle.hpp"
-#include "pmq/query/polygon.hpp"
 #include "pmq/query/queries.hpp"
 #include "pmq/query/ranking.hpp"
-#include "pmq/store.hpp"
 
 #include <algorithm>
 #include <memory>
 
 using locus::boundary;
 using locus::need;
+using locus::Question;
 using locus::require;
 using namespace locus::pmq;
-
-struct locus_pmq {
-    std::shared_ptr<Store> store;
-};
-
-struct locus_pmq_snapshot {
-    std::shared_ptr<Store> store; // kept alive
-    std::shared_ptr<const Snapshot> moment;
-};
 
 static_assert(sizeof(locus_pmq_options) == 144, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_query) == 136, "append only; then update the ABI baseline");
@@ -33,65 +23,7 @@ static_assert(LOCUS_KEY_END == locus::key_end);
 
 namespace {
 
-constexpr size_t first_score_size = 48;
-constexpr size_t first_options_size = 144, first_query_size = 136, first_stats_size = 136;
-
-locus_pmq_query default_query() noexcept {
-    locus_pmq_query query{};
-    query.struct_size = sizeof query;
-    query.region = LOCUS_REGION_ALL;
-    query.time_from = INT64_MIN;
-    query.time_to = INT64_MAX;
-    return query;
-}
-
-std::unique_ptr<const Region> region_of(const locus_pmq_query &query) {
-    switch (query.region) {
-    case LOCUS_REGION_ALL:
-        return nullptr;
-    case LOCUS_REGION_BOX:
-        return std::make_unique<BoxRegion>(query.box);
-    case LOCUS_REGION_CIRCLE:
-        return std::make_unique<CircleRegion>(query.circle);
-    case LOCUS_REGION_POLYGON:
-        return std::make_unique<PolygonRegion>(query.polygon);
-    default:
-        locus::fail(LOCUS_E_ARGUMENT, "query.region is ", query.region, ", not a LOCUS_REGION_");
-    }
-}
-
-// A caller's query and the region it asks for.
-class Question {
-public:
-    explicit Question(const locus_pmq_query *query) {
-        const locus_pmq_query whole = locus::read_options(query, default_query(), first_query_size);
-        require(whole.reserved0 == 0, "query.reserved0 is ", whole.reserved0, ", not 0");
-        require(whole.time_from <= whole.time_to, "query.time_from is ", whole.time_from, ", after time_to, ",
-                whole.time_to);
-        region_ = region_of(whole);
-        selection_.region = region_.get();
-        selection_.times = {whole.time_from, whole.time_to};
-        selection_.filter = whole.filter;
-        selection_.filter_user = whole.filter_user;
-        snapshot_ = whole.snapshot;
-    }
-    Question(const Question &) = delete;
-    Question &operator=(const Question &) = delete;
-    const Selection &selection() const noexcept { return selection_; }
-    const locus_pmq_snapshot *snapshot() const noexcept { return snapshot_; }
-    // What is to be asked.
-    std::shared_ptr<const View> view(const locus_pmq &pmq) const {
-        if (snapshot_ == nullptr)
-            return pmq.store->view();
-        require(snapshot_->store == pmq.store, "query.snapshot is another store's");
-        return snapshot_->moment->view();
-    }
-
-private:
-    std::unique_ptr<const Region> region_;
-    Selection selection_;
-    const locus_pmq_snapshot *snapshot_ = nullptr;
-};
+constexpr size_t first_options_size = 144, first_score_size = 48, first_stats_size = 136;
 
 // A query of a tile, whose region it is, with the bins that it needs.
 class TileQuestion : public Question {
@@ -202,7 +134,8 @@ locus_status locus_pmq_options_init(locus_pmq_options *options, size_t size) noe
 }
 
 locus_status locus_pmq_query_init(locus_pmq_query *query, size_t size) noexcept {
-    return boundary(__func__, [&] { locus::init_options(query, size, default_query(), first_query_size, "query"); });
+    return boundary(
+        __func__, [&] { locus::init_options(query, size, locus::default_query(), locus::first_query_size, "query"); });
 }
 
 locus_status locus_pmq_key(double latitude, double longitude, uint64_t *key) noexcept {
@@ -228,7 +161,8 @@ locus_status locus_pmq_insert(locus_pmq *pmq, const void *records, size_t count,
     return boundary(__func__, [&] {
         need(pmq, "pmq");
         require(records != nullptr || count == 0, "records is NULL, count is ", count);
-        finished(pmq->store->insert(static_cast<const std::byte *>(records), count, now), "remove or sink");
+        finished(pmq->store->insert(static_cast<const std::byte *>(records), count, now),
+                 "remove, sink, alert or fence");
     });
 }
 

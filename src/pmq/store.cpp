@@ -109,12 +109,32 @@ uint64_t Store::change(Change &&change) {
 bool Store::insert(Bytes records, size_t count, int64_t now) {
     const Writing writing(*this);
     Eviction eviction = eviction_at(now);
-    evicted_ += change([&] { layout_->insert(checked(records, count, now), eviction, departures_); });
+    Batch batch{};
+    evicted_ += change([&] {
+        batch = checked(records, count, now);
+        layout_->insert(batch, eviction, departures_);
+    });
     now_ = now;
     inserted_ += count;
     ++batches_;
     const bool handed_over = hand_over();
-    return handed_over && !eviction.stopped();
+    const bool told = tell(batch, eviction.moment());
+    return handed_over && told && !eviction.stopped();
+}
+
+void Store::observe(std::shared_ptr<Observer> observer) {
+    const Writing writing(*this);
+    std::erase_if(observers_, [](const auto &one) { return one->ended(); });
+    observers_.push_back(std::move(observer));
+}
+
+// Every observer is told, also after one whose callback stopped. None comes while this goes on.
+bool Store::tell(const Batch &batch, const Moment &moment) {
+    bool completely = true;
+    std::erase_if(observers_, [](const auto &one) { return one->ended(); });
+    for (const std::shared_ptr<Observer> &observer : observers_)
+        completely = observer->arrived(batch, format_, moment) && completely;
+    return completely;
 }
 
 bool Store::sweep(int64_t now, uint64_t &evicted) {

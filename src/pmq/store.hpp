@@ -6,6 +6,7 @@
 #include "pmq/departures.hpp"
 #include "pmq/eviction.hpp"
 #include "pmq/layout/layout.hpp"
+#include "pmq/observer.hpp"
 #include "pmq/query/selection.hpp"
 
 #include <atomic>
@@ -26,6 +27,9 @@ public:
     bool insert(Bytes records, size_t count, int64_t now);
     bool sweep(int64_t now, uint64_t &evicted);
     bool erase(const Selection &selection, uint64_t &erased);
+
+    // Tell of every batch from now on. Error(LOCUS_E_BUSY) beside a change.
+    void observe(std::shared_ptr<Observer> observer);
 
     // What the queries (query/queries.hpp) ask.
     std::shared_ptr<const View> view() const;
@@ -52,6 +56,7 @@ private:
     template <typename Change>
     uint64_t change(Change &&change);
     bool hand_over();
+    bool tell(const Batch &batch, const Moment &moment);
     void publish_figures();
     void log_growth(const LayoutStats &before) const;
 
@@ -60,6 +65,7 @@ private:
     const std::unique_ptr<Layout> layout_;
     const KeysOf find_keys_ = keys_of(simd_best());
     Departures departures_;
+    std::vector<std::shared_ptr<Observer>> observers_;
     int64_t now_ = INT64_MIN;
     std::vector<uint64_t> keys_;     // of the batch at work
     std::vector<std::byte> clamped_; // its records, if a time had to be changed

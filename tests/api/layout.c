@@ -199,6 +199,44 @@ int main(void) {
     FIELD(locus_pmq_group, count, 8);
     FIELD(locus_pmq_group, newest, 16);
 
+    SIZE(locus_alert, 96);
+    FIELD(locus_alert, number, 0);
+    FIELD(locus_alert, kind, 8);
+    FIELD(locus_alert, zoom, 12);
+    FIELD(locus_alert, x, 16);
+    FIELD(locus_alert, y, 20);
+    FIELD(locus_alert, box, 24);
+    FIELD(locus_alert, time, 56);
+    FIELD(locus_alert, records, 64);
+    FIELD(locus_alert, rate, 72);
+    FIELD(locus_alert, expected, 80);
+    FIELD(locus_alert, share, 88);
+
+    SIZE(locus_alerts_options, 112);
+    FIELD(locus_alerts_options, struct_size, 0);
+    FIELD(locus_alerts_options, zoom_from, 8);
+    FIELD(locus_alerts_options, zoom_to, 12);
+    FIELD(locus_alerts_options, half_life, 16);
+    FIELD(locus_alerts_options, history, 24);
+    FIELD(locus_alerts_options, cool_down, 32);
+    FIELD(locus_alerts_options, minimum, 40);
+    FIELD(locus_alerts_options, factor, 48);
+    FIELD(locus_alerts_options, rate, 56);
+    FIELD(locus_alerts_options, share, 64);
+    FIELD(locus_alerts_options, max_bytes, 72);
+    FIELD(locus_alerts_options, alert, 80);
+    FIELD(locus_alerts_options, alert_user, 88);
+    FIELD(locus_alerts_options, fence, 96);
+    FIELD(locus_alerts_options, fence_user, 104);
+
+    SIZE(locus_alerts_stats, 48);
+    FIELD(locus_alerts_stats, struct_size, 0);
+    FIELD(locus_alerts_stats, regions, 8);
+    FIELD(locus_alerts_stats, fences, 16);
+    FIELD(locus_alerts_stats, raised, 24);
+    FIELD(locus_alerts_stats, shown, 32);
+    FIELD(locus_alerts_stats, bytes, 40);
+
     SIZE(locus_pmq_stats, 136);
     FIELD(locus_pmq_stats, struct_size, 0);
     FIELD(locus_pmq_stats, records, 8);

@@ -1,0 +1,42 @@
+// The bodies of the PMQ's handles, and a caller's query as the engine understands it.
+#pragma once
+
+#include "core/error.hpp"
+#include "pmq/store.hpp"
+
+#include <memory>
+
+struct locus_pmq {
+    std::shared_ptr<locus::pmq::Store> store;
+};
+
+struct locus_pmq_snapshot {
+    std::shared_ptr<locus::pmq::Store> store; // kept alive
+    std::shared_ptr<const locus::pmq::Snapshot> moment;
+};
+
+namespace locus {
+
+constexpr size_t first_query_size = 136;
+locus_pmq_query default_query() noexcept;
+
+// A query and the region it asks for.
+class Question {
+public:
+    explicit Question(const locus_pmq_query *query);
+    Question(const Question &) = delete;
+    Question &operator=(const Question &) = delete;
+    const pmq::Selection &selection() const noexcept { return selection_; }
+    const locus_pmq_snapshot *snapshot() const noexcept { return snapshot_; }
+    // What is to be asked.
+    std::shared_ptr<const pmq::View> view(const locus_pmq &pmq) const;
+    // The selection's region, which then lives as long as the caller wants.
+    std::unique_ptr<const pmq::Region> take_region() noexcept { return std::move(region_); }
+
+private:
+    std::unique_ptr<const pmq::Region> region_;
+    pmq::Selection selection_;
+    const locus_pmq_snapshot *snapshot_ = nullptr;
+};
+
+} // namespace locus

@@ -1,0 +1,78 @@
+// The default alerts find the bursts that the demo's generator plants: those, and no others.
+#include "stream/generator.hpp"
+#include "stream/window.hpp"
+
+#include <locus/alerts.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace demo {
+namespace {
+
+constexpr int64_t hour = 3'600'000'000;
+constexpr int64_t start = int64_t{20533} * 24 * hour; // 2026-03-21
+
+struct Stream {
+    uint64_t seed;
+    double posts;
+    size_t events;
+    int64_t span;
+    size_t batch;
+};
+
+int32_t keep(const locus_alert *alert, void *user) {
+    static_cast<std::vector<locus_alert> *>(user)->push_back(*alert);
+    return 0;
+}
+
+Position centre(const locus_alert &alert) {
+    return {(alert.box.south + alert.box.north) / 2, (alert.box.west + alert.box.east) / 2};
+}
+
+// The alert tells of the burst: its region lies at the place, and it comes while the burst goes on.
+bool tells_of(const locus_alert &alert, const Event &event) {
+    return distance_km(centre(alert), event.place->position) < 15 && alert.time >= event.start &&
+           alert.time < event.start + event.duration;
+}
+
+void expect_the_planted(const Stream &stream) {
+    SCOPED_TRACE("seed " + std::to_string(stream.seed) + ", " + std::to_string(stream.posts) + " posts");
+    const World world = load_world("examples/data");
+    Generator generator(world, {stream.seed, stream.posts, start, stream.span, stream.events});
+    Window window(6 * hour);
+    std::vector<locus_alert> found;
+    locus_alerts_options options;
+    check(locus_alerts_options_init(&options, sizeof options));
+    options.alert = keep;
+    options.alert_user = &found;
+    locus_alerts *alerts = nullptr;
+    check(locus_alerts_create(const_cast<locus_pmq *>(window.store()), &options, &alerts));
+    std::vector<locus_text156> batch;
+    for (generator.next(batch, stream.batch); !batch.empty(); generator.next(batch, stream.batch))
+        window.insert(batch);
+    for (const Event &event : generator.events())
+        EXPECT_EQ(std::count_if(found.begin(), found.end(), [&](const locus_alert &a) { return tells_of(a, event); }),
+                  1)
+            << event.place->name << ", " << event.posts << " posts from hour "
+            << static_cast<double>(event.start - start) / hour << " for " << static_cast<double>(event.duration) / hour;
+    for (const locus_alert &alert : found) {
+        EXPECT_TRUE(std::any_of(generator.events().begin(), generator.events().end(),
+                                [&](const Event &event) { return tells_of(alert, event); }))
+            << "no burst: " << alert.zoom << "/" << alert.x << "/" << alert.y << " at " << centre(alert).latitude
+            << ", " << centre(alert).longitude << ", hour " << static_cast<double>(alert.time - start) / hour << ", "
+            << alert.records << " records, rate " << alert.rate << " instead of " << alert.expected;
+        EXPECT_EQ(alert.kind, static_cast<uint32_t>(LOCUS_ALERT_JUMP));
+    }
+    locus_alerts_destroy(alerts);
+}
+
+// The density of the demo's stream, for a quarter of its day.
+TEST(Alerts, FindThePlantedBurstsAndNoOthers) {
+    for (uint64_t seed = 1; seed <= 4; ++seed)
+        expect_the_planted({seed, 500'000, 3, 6 * hour, 1000});
+}
+
+} // namespace
+} // namespace demo
