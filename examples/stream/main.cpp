@@ -1,7 +1,7 @@
 // stream: a stream of geo-located records through a six-hour window, measured, queried and drawn. See --help.
+#include "common/file_source.hpp"
+#include "common/generator.hpp"
 #include "common/progress.hpp"
-#include "stream/file_source.hpp"
-#include "stream/generator.hpp"
 #include "stream/options.hpp"
 #include "stream/pictures.hpp"
 #include "stream/report.hpp"

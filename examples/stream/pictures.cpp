@@ -2,8 +2,8 @@
 #include "stream/pictures.hpp"
 
 #include "common/progress.hpp"
+#include "common/texts.hpp"
 #include "stream/report.hpp"
-#include "stream/texts.hpp"
 
 #include <algorithm>
 #include <cmath>

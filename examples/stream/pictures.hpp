@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/animation.hpp"
-#include "stream/events.hpp"
+#include "common/events.hpp"
 #include "stream/heat_map.hpp"
 #include "stream/window.hpp"
 

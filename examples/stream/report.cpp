@@ -3,7 +3,7 @@
 
 #include "common/canvas.hpp"
 #include "common/progress.hpp"
-#include "stream/texts.hpp"
+#include "common/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

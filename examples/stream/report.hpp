@@ -1,8 +1,8 @@
 // What the program prints.
 #pragma once
 
-#include "stream/events.hpp"
-#include "stream/source.hpp"
+#include "common/events.hpp"
+#include "common/source.hpp"
 #include "stream/view.hpp"
 #include "stream/window.hpp"
 

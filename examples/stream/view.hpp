@@ -1,7 +1,7 @@
 // A part of the Web-Mercator world as a picture shows it: one pixel is one bin of the store's heat-map tiles.
 #pragma once
 
-#include "stream/world.hpp"
+#include "common/world.hpp"
 
 #include <locus/pmq.h>
 

@@ -13,7 +13,7 @@ void check(locus_status status) {
         throw std::runtime_error(locus_last_error());
 }
 
-Window::Window(int64_t horizon, StoreLayout layout) : horizon_(horizon) {
+Window::Window(int64_t horizon, StoreLayout layout) : horizon_(horizon), stream_clock_(horizon) {
     locus_pmq_options options;
     check(locus_pmq_options_init(&options, sizeof options));
     options.record = LOCUS_RECORD_TEXT156;
@@ -30,27 +30,10 @@ Window::Window(int64_t horizon, StoreLayout layout) : horizon_(horizon) {
     store_.reset(store);
 }
 
-// A replay's clock is the latest time of the batch, but it never runs back, and a few times far ahead of the others (a
-// slip, a broken clock) do not move it, for they would empty the window: more than the horizon, and than ten times the
-// usual spread, after the median.
-int64_t Window::clock_of(const std::vector<locus_text156> &batch) {
-    times_.clear();
-    for (const locus_text156 &record : batch)
-        times_.push_back(int64_t{record.time}); // by value: it may lie at a multiple of 4 only
-    std::sort(times_.begin(), times_.end());
-    const auto median = static_cast<double>(times_[times_.size() / 2]);
-    const auto quarter = static_cast<double>(times_[times_.size() / 4]);
-    const double limit = median + std::max(static_cast<double>(horizon_), 10 * (median - quarter));
-    size_t last = times_.size() - 1;
-    while (static_cast<double>(times_[last]) > limit)
-        --last;
-    return std::max(clock_, times_[last]);
-}
-
 void Window::insert(const std::vector<locus_text156> &batch) {
     if (batch.empty())
         return;
-    clock_ = clock_of(batch);
+    clock_ = stream_clock_.advance(batch);
     for (const locus_text156 &record : batch) {
         if (record.time > clock_)
             ++ahead_;

@@ -1,6 +1,8 @@
 // The live window: a PMQ store with a horizon, and what inserting into it takes.
 #pragma once
 
+#include "common/stream_clock.hpp"
+
 #include <locus/pmq.h>
 
 #include <memory>
@@ -18,7 +20,7 @@ class Window {
 public:
     explicit Window(int64_t horizon, StoreLayout layout = StoreLayout::usual); // microseconds
 
-    // Insert a batch at the clock that its times tell; see clock_of. Throws std::runtime_error.
+    // Insert a batch at the clock that its times tell. Throws std::runtime_error.
     void insert(const std::vector<locus_text156> &batch);
 
     // Evict what is expired but still stored.
@@ -37,13 +39,11 @@ private:
         void operator()(locus_pmq *store) const { locus_pmq_destroy(store); }
     };
 
-    int64_t clock_of(const std::vector<locus_text156> &batch);
-
     int64_t horizon_;
+    StreamClock stream_clock_;
     std::unique_ptr<locus_pmq, Destroy> store_;
     int64_t clock_ = INT64_MIN;
     std::vector<double> seconds_; // per batch
-    std::vector<int64_t> times_;  // room for clock_of
     double insert_seconds_ = 0;
     uint64_t late_ = 0;
     uint64_t ahead_ = 0;

@@ -6,7 +6,7 @@ $(OUT)/examples/%: private CPPFLAGS_ALL := -Iinclude -Iexamples $(CPPFLAGS)
 # g++ 12 sees overlapping copies in joined strings where there are none (its bug 105651).
 $(OUT)/examples/%: private EXTRA_CXXFLAGS += $(if $(findstring clang,$(CXX)),,-Wno-restrict)
 
-# $(eval $(call example,NAME)): $(OUT)/bin/NAME from examples/NAME/*.cpp and what the examples share.
+# $(eval $(call example,NAME,LIBS)): $(OUT)/bin/NAME from examples/NAME/*.cpp and what the examples share; LIBS: more it needs.
 define example
 EXAMPLE_$(1) := $(OUT)/bin/$(1)
 OBJECTS_example_$(1) := $(patsubst %,$(OUT)/%.o,$(wildcard examples/$(1)/*.cpp))
@@ -14,7 +14,7 @@ $$(OBJECTS_example_$(1)) $(EXAMPLE_COMMON): | $(call needs,demo)
 $(OUT)/bin/$(1): $$(OBJECTS_example_$(1)) $(EXAMPLE_COMMON) $(SHARED_locus) $(SHARED_locus_io)
 	@mkdir -p $$(@D)
 	@echo "  LD  $$@"
-	@$$(CXX) $$(filter %.o,$$^) -L$(OUT) -llocus_io -llocus -lpng -lz -Wl,-rpath,'$$$$ORIGIN/..' $$(LDFLAGS_ALL) -o $$@
+	@$$(CXX) $$(filter %.o,$$^) -L$(OUT) -llocus_io -llocus $(2) -lpng -lz -Wl,-rpath,'$$$$ORIGIN/..' $$(LDFLAGS_ALL) -o $$@
 endef
 
 .PHONY: demo
@@ -33,6 +33,16 @@ test: test-stream
 memcheck-stream: $(EXAMPLE_stream) | $(call needs,test)
 	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $< --posts 2000 --frames 1 --out $(OUT)/memcheck-stream
 MEMCHECK_RUNS += memcheck-stream
+
+# The explorer: a server on the stream. Its page needs no building. Debian's cpp-httplib is compiled with these features.
+$(eval $(call example,explorer,-lcpp-httplib))
+$(OBJECTS_example_explorer): | $(call needs,explorer)
+HTTPLIB_OBJECTS := $(patsubst %,$(OUT)/examples/explorer/%.cpp.o,server connection)
+$(HTTPLIB_OBJECTS): private CPPFLAGS_ALL += $(addprefix -DCPPHTTPLIB_,$(addsuffix _SUPPORT,OPENSSL ZLIB BROTLI))
+.PHONY: explorer explorer-program
+explorer-program: $(EXAMPLE_explorer)
+explorer: $(EXAMPLE_explorer) ## build the explorer and serve the demo stream at http://127.0.0.1:8080; EXPLORER_FLAGS: see its --help
+	@$(EXAMPLE_explorer) $(EXPLORER_FLAGS)
 
 # Unit tests of the examples' own parts.
 UNIT_LIBS_examples := -lpng -lz

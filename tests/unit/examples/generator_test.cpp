@@ -1,7 +1,7 @@
 // The simulated stream of the examples: what it promises about times, places, day and night, and bursts.
-#include "stream/generator.hpp"
+#include "common/generator.hpp"
 
-#include "stream/texts.hpp"
+#include "common/texts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The views of the stream example against plain arithmetic, its window, and animated PNGs.
 #include "common/animation.hpp"
+#include "common/random.hpp"
 #include "stream/heat_map.hpp"
-#include "stream/random.hpp"
 #include "stream/window.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Where and when the bursts are.
-#include "stream/events.hpp"
+#include "common/events.hpp"
 
-#include "stream/texts.hpp"
+#include "common/texts.hpp"
 
 #include <algorithm>
 #include <cmath>

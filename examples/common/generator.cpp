@@ -1,7 +1,7 @@
 // Arrivals step by step: a Poisson number of posts per minute, each at a place drawn for its share of the moment.
-#include "stream/generator.hpp"
+#include "common/generator.hpp"
 
-#include "stream/texts.hpp"
+#include "common/texts.hpp"
 
 #include <algorithm>
 #include <cmath>

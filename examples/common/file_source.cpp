@@ -1,5 +1,5 @@
 // CSV and NDJSON through locus/records.h.
-#include "stream/file_source.hpp"
+#include "common/file_source.hpp"
 
 #include "common/progress.hpp"
 

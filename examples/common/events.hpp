@@ -2,8 +2,8 @@
 // others.
 #pragma once
 
-#include "stream/random.hpp"
-#include "stream/world.hpp"
+#include "common/random.hpp"
+#include "common/world.hpp"
 
 #include <cstdint>
 

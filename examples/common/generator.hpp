@@ -1,8 +1,8 @@
 // A simulated stream of posts: places by their people, day and night by the sun, planted bursts.
 #pragma once
 
-#include "stream/events.hpp"
-#include "stream/source.hpp"
+#include "common/events.hpp"
+#include "common/source.hpp"
 
 namespace demo {
 

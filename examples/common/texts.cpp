@@ -1,6 +1,6 @@
 // Templates: {p} the place, {n} a number of 2..59, {e} the event's tag. The first post is a morning's, the sixth a
 // night's.
-#include "stream/texts.hpp"
+#include "common/texts.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 // Reading the data files.
-#include "stream/world.hpp"
+#include "common/world.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Short posts in many languages, made of templates and place names.
 #pragma once
 
-#include "stream/random.hpp"
+#include "common/random.hpp"
 
 #include <cstddef>
 #include <string_view>

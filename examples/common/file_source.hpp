@@ -1,7 +1,7 @@
 // A stream read from a file or standard input.
 #pragma once
 
-#include "stream/source.hpp"
+#include "common/source.hpp"
 
 #include <locus/records.h>
 

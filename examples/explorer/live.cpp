@@ -1,0 +1,198 @@
+// Inserting beside the readers.
+#include "explorer/live.hpp"
+
+#include "explorer/selection.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+namespace explorer {
+namespace {
+
+constexpr size_t most_queued = 64;       // batches,
+constexpr size_t most_waiting = 500'000; // and records
+constexpr auto tick = std::chrono::milliseconds(50);
+constexpr auto publication = std::chrono::milliseconds(200);
+constexpr int64_t rate_seconds = 5;
+
+uint64_t thread_cpu_ns() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<uint64_t>(time.tv_nsec);
+}
+
+int64_t second_now() {
+    return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+} // namespace
+
+int64_t wall_clock() {
+    const auto since = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::microseconds>(since).count();
+}
+
+Live::Live(const LiveSettings &settings) : settings_(settings), stream_clock_(settings.horizon) {
+    locus_pmq_options options;
+    check(locus_pmq_options_init(&options, sizeof options));
+    options.record = LOCUS_RECORD_TEXT156;
+    options.future = LOCUS_FUTURE_CLAMP;
+    options.horizon = settings.horizon;
+    options.max_bytes = settings.max_bytes;
+    locus_pmq *store = nullptr;
+    check(locus_pmq_create(&options, &store));
+    store_.reset(store);
+    writer_ = std::thread([this] { run(); });
+}
+
+Live::~Live() { stop(); }
+
+void Live::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    more_.notify_all();
+    room_.notify_all();
+    if (writer_.joinable())
+        writer_.join();
+}
+
+bool Live::enqueue(Job job, bool wait) {
+    std::unique_lock lock(mutex_);
+    const auto ready = [&] {
+        return (queue_.size() < most_queued && waiting_ < most_waiting) || stopping_ || !failure_.empty();
+    };
+    if (wait)
+        room_.wait(lock, ready);
+    if (!ready() || stopping_ || !failure_.empty())
+        return false;
+    waiting_ += job.batch.size();
+    queue_.push_back(std::move(job));
+    more_.notify_one();
+    return true;
+}
+
+bool Live::offer(Batch batch) { return enqueue({std::move(batch), nullptr}, true); }
+
+void Live::ingest(Batch batch) {
+    auto stored = std::make_shared<std::promise<std::string>>();
+    auto result = stored->get_future();
+    if (!enqueue({std::move(batch), stored}, false))
+        throw Failure(503, failure().empty() ? "ingest: too many batches are waiting" : failure());
+    const std::string reason = result.get();
+    if (!reason.empty())
+        throw Failure(503, reason);
+}
+
+void Live::run() {
+    for (;;) {
+        Job job;
+        {
+            std::unique_lock lock(mutex_);
+            more_.wait_for(lock, tick, [&] { return !queue_.empty() || stopping_; });
+            if (queue_.empty() && stopping_)
+                break;
+            if (!queue_.empty()) {
+                job = std::move(queue_.front());
+                queue_.pop_front();
+                waiting_ -= job.batch.size();
+            }
+        }
+        room_.notify_all();
+        store(job);
+    }
+}
+
+// Without a batch the clock goes on all the same, and what is expired leaves. Whoever waits for his batch gets a new
+// version, so that what is asked after the answer is not taken from before it.
+void Live::store(Job &job) {
+    std::string reason;
+    try {
+        reason = insert(job.batch);
+        if (job.stored || Clock::now() - published_ >= publication)
+            publish();
+    } catch (const std::exception &error) {
+        reason = error.what();
+        const std::lock_guard lock(mutex_);
+        failure_ = reason;
+        room_.notify_all();
+    }
+    if (!reason.empty())
+        refused_.fetch_add(1, std::memory_order_relaxed);
+    if (job.stored)
+        job.stored->set_value(reason);
+}
+
+std::string Live::insert(const Batch &batch) {
+    int64_t now = settings_.clock();
+    if (now == INT64_MIN)
+        now = stream_clock_.advance(batch);
+    now = std::max(now, now_.load(std::memory_order_relaxed));
+    if (now == INT64_MIN)
+        return "";
+    const auto begin = Clock::now();
+    const uint64_t cpu = thread_cpu_ns();
+    const locus_status status = locus_pmq_insert(store_.get(), batch.data(), batch.size(), now);
+    if (status == LOCUS_E_MEMORY || status == LOCUS_E_ARGUMENT)
+        return locus_last_error();
+    check(status);
+    now_.store(now, std::memory_order_release);
+    if (batch.empty())
+        return "";
+    cpu_.add(thread_cpu_ns() - cpu);
+    wall_.add(static_cast<uint64_t>(std::chrono::nanoseconds(Clock::now() - begin).count()));
+    count(batch.size());
+    int64_t first = first_.load(std::memory_order_relaxed);
+    for (const locus_text156 &record : batch)
+        first = std::min(first, int64_t{record.time});
+    first_.store(first, std::memory_order_relaxed);
+    changed_ = true;
+    return "";
+}
+
+void Live::count(size_t records) {
+    const int64_t number = second_now();
+    const std::lock_guard lock(mutex_);
+    Second &second = seconds_[static_cast<size_t>(number) % seconds_.size()];
+    if (second.number != number)
+        second = {number, 0};
+    second.records += records;
+}
+
+double Live::rate() const {
+    const int64_t number = second_now();
+    uint64_t records = 0;
+    const std::lock_guard lock(mutex_);
+    for (const Second &second : seconds_)
+        if (second.number < number && second.number >= number - rate_seconds)
+            records += second.records;
+    return static_cast<double>(records) / static_cast<double>(rate_seconds);
+}
+
+size_t Live::queued() const {
+    const std::lock_guard lock(mutex_);
+    return queue_.size();
+}
+
+std::string Live::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+}
+
+// A new version, where the store has changed since the last one: by a batch, or by records that have left.
+void Live::publish() {
+    published_ = Clock::now();
+    locus_pmq_stats stats{};
+    stats.struct_size = sizeof stats;
+    check(locus_pmq_get_stats(store_.get(), &stats));
+    const uint64_t gone = stats.inserted - stats.records;
+    if (!changed_ && gone == gone_)
+        return;
+    changed_ = false;
+    gone_ = gone;
+    version_.fetch_add(1, std::memory_order_release);
+}
+
+} // namespace explorer

@@ -1,0 +1,144 @@
+// The command line, by CLI11.
+#include "explorer/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+namespace explorer {
+namespace {
+
+constexpr const char *about =
+    "Serves a live map over a stream of geo-located records: the last hours of it, while it keeps arriving.\n\n"
+    "  explorer                                 a simulated stream, at http://127.0.0.1:8080\n"
+    "  explorer --csv taxis.csv.zst --speed 60  a file, sixty times as fast as it happened\n"
+    "  tail -f log | explorer --json -          standard input, one JSON object a line\n"
+    "  explorer --empty                         what is posted to /ingest, nothing else\n";
+
+void add_source(CLI::App &app, Options &options) {
+    const char *group = "Source";
+    app.add_flag("--demo", options.demo,
+                 "The simulated stream, without end; what is taken where no other source is named")
+        ->group(group);
+    const auto input = [&](const char *name, uint32_t format, const char *text) {
+        const auto take = [&options, format](const std::string &path) {
+            options.input = path;
+            options.format = format;
+        };
+        return app.add_option_function<std::string>(name, take, text)->type_name("FILE")->group(group);
+    };
+    CLI::Option *csv =
+        input("--csv", LOCUS_RECORDS_CSV, "CSV with column names in its first row, plain or .zst; - is standard input");
+    CLI::Option *json =
+        input("--json", LOCUS_RECORDS_NDJSON, "Newline-delimited JSON, plain or .zst; - is standard input");
+    CLI::Option *empty =
+        app.add_flag("--empty", options.empty, "No source but what is posted to /ingest")->group(group);
+    CLI::Option *demo = app.get_option("--demo");
+    for (CLI::Option *one : {csv, json, empty, demo})
+        for (CLI::Option *other : {csv, json, empty, demo})
+            if (one != other)
+                one->excludes(other);
+    app.add_option("--time", options.time, "Name of the time column [time, timestamp, ...]")->group(group);
+    app.add_option("--lat", options.latitude, "Name of the latitude column [lat, latitude, y]")->group(group);
+    app.add_option("--lon", options.longitude, "Name of the longitude column [lon, lng, longitude, x]")->group(group);
+    app.add_option("--text", options.text, "Name of the text column [text, message, name, or none]")->group(group);
+    app.add_option("--speed", options.speed, "A file: times real time; 0: as fast as it goes [1; standard input: 0]")
+        ->default_str("")
+        ->check(CLI::Range(0.0, 1e9))
+        ->group(group);
+    app.add_option("--rate", options.rate, "Demo stream: records a second")->check(CLI::Range(0.01, 1e6))->group(group);
+    app.add_option("--prefill", options.prefill, "Demo stream: seconds of its past made at the start [the horizon]")
+        ->default_str("")
+        ->check(CLI::Range(0.0, 1e8))
+        ->group(group);
+    app.add_option("--seed", options.seed, "Demo stream: the same one gives the same stream")->group(group);
+}
+
+void add_window(CLI::App &app, Options &options) {
+    const char *group = "Window";
+    app.add_option("--horizon", options.horizon, "Seconds that a record stays; 0: for ever")
+        ->check(CLI::Range(0.0, 1e11))
+        ->group(group);
+    app.add_option("--memory", options.memory,
+                   "Most memory of the store, MB; beyond, the oldest records go; 0: no limit")
+        ->check(CLI::Range(0.0, 1e7))
+        ->group(group);
+}
+
+void add_server(CLI::App &app, Options &options) {
+    const char *group = "Server";
+    app.add_option("--bind", options.bind, "Address to listen at")->group(group);
+    app.add_option("--port", options.port, "Port; 0: any free one, which is printed")
+        ->check(CLI::Range(0, 65535))
+        ->group(group);
+    app.add_option("--token", options.token,
+                   "What a client must show to post records; others may see it among the processes")
+        ->default_str("")
+        ->group(group);
+    app.add_option("--token-file", options.token_file, "The same from a file's first line [LOCUS_EXPLORER_TOKEN]")
+        ->group(group);
+    app.add_option("--max-body", options.max_body, "Largest body posted, MB")->check(CLI::Range(1, 1024))->group(group);
+    app.add_option("--max-results", options.max_results, "Most records of an answer")
+        ->check(CLI::Range(1, 100'000))
+        ->group(group);
+    app.add_option("--listeners", options.listeners, "Most event listeners")
+        ->check(CLI::Range(1, 10'000))
+        ->group(group);
+    app.add_option("--request-seconds", options.request_seconds,
+                   "A client that needs longer for a request and its answer is cut off")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->group(group);
+    app.add_option("--allow-origin", options.allow_origin, "Another site whose pages may read the answers, or *")
+        ->group(group);
+    app.add_option("--static", options.pages, "Folder of the page's files [beside the program]")->group(group);
+    app.add_option("--places", options.places, "Folder of places.tsv and land.txt [beside the program]")->group(group);
+}
+
+} // namespace
+
+std::optional<Options> parse_options(int argc, char **argv, int &status) {
+    Options options;
+    CLI::App app(about, "explorer");
+    app.option_defaults()->always_capture_default();
+    app.get_formatter()->column_width(34);
+    add_source(app, options);
+    add_window(app, options);
+    add_server(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError &error) {
+        status = app.exit(error) == 0 ? 0 : 2;
+        return std::nullopt;
+    }
+    return options;
+}
+
+locus_records_options reader_options(const Options &options) {
+    locus_records_options reader;
+    if (locus_records_options_init(&reader, sizeof reader) != LOCUS_OK)
+        throw std::runtime_error(locus_io_last_error());
+    const auto name = [](const std::string &text) { return text.empty() ? nullptr : text.c_str(); };
+    reader.format = options.format;
+    reader.time_column = name(options.time);
+    reader.latitude_column = name(options.latitude);
+    reader.longitude_column = name(options.longitude);
+    reader.text_column = name(options.text);
+    return reader;
+}
+
+std::string token_of(const Options &options) {
+    if (!options.token.empty())
+        return options.token;
+    std::string token;
+    if (!options.token_file.empty()) {
+        std::ifstream file(options.token_file);
+        if (!std::getline(file, token) || token.empty())
+            throw std::runtime_error("--token-file " + options.token_file + ": no token in its first line");
+        return token;
+    }
+    const char *environment = std::getenv("LOCUS_EXPLORER_TOKEN");
+    return environment == nullptr ? "" : environment;
+}
+
+} // namespace explorer

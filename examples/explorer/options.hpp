@@ -1,0 +1,49 @@
+// The command line.
+#pragma once
+
+#include <locus/records.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace explorer {
+
+struct Options {
+    // The source.
+    std::string input; // a file; empty: the demo stream
+    bool demo = false; // asked for by name
+    bool empty = false;
+    uint32_t format = LOCUS_RECORDS_AUTO;
+    std::string time, latitude, longitude, text; // empty: the usual names
+    double rate = 100;
+    double prefill = -1; // seconds; negative: the horizon
+    uint64_t seed = 1;
+    double speed = -1; // negative: 1, and 0 for standard input
+
+    // The window.
+    double horizon = 10800; // seconds; 0: none
+    double memory = 0;      // MB; 0: no limit
+
+    // The server.
+    std::string bind = "127.0.0.1";
+    int port = 8080;
+    std::string token, token_file;
+    size_t max_body = 16; // MB
+    size_t max_results = 1000;
+    size_t listeners = 128;
+    double request_seconds = 30;
+    std::string allow_origin;
+    std::string pages, places; // folders; empty: found beside the program
+};
+
+// Nothing: `status` is what the program ends with at once (after --help, or an error that was printed).
+std::optional<Options> parse_options(int argc, char **argv, int &status);
+
+// The library's reader options; the strings stay with `options`.
+locus_records_options reader_options(const Options &options);
+
+// The token that ingest asks for: from the command line, the file, or the environment. Throws std::runtime_error.
+std::string token_of(const Options &options);
+
+} // namespace explorer
