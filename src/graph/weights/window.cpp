@@ -1,11 +1,33 @@
 // Windows: filled from the field row by row.
 #include "graph/weights/window.hpp"
 
+#include <bit>
+#include <type_traits>
+
 namespace locus::graph {
 
 namespace {
 
 std::array<size_t, 3> padded(const Box &box) { return {box.extent[0] + 2, box.extent[1] + 2, box.extent[2] + 2}; }
+
+// give(number, weight) for the edges from a voxel to the neighbours in `mask`; these are passable, the edges whole.
+template <typename Give>
+void for_weights(const Graph &graph, uint64_t voxel, uint32_t mask, Give give) {
+    const auto weigh = [&](const auto &rule) {
+        for (; mask != 0; mask &= mask - 1) {
+            const Neighbour &to = graph.grid().neighbour(static_cast<unsigned>(std::countr_zero(mask)));
+            if constexpr (std::is_same_v<decltype(rule), const CallerWeights &>) {
+                give(to.number, graph.weight(voxel, to));
+            } else {
+                using R = std::remove_cvref_t<decltype(rule.factor[0])>;
+                const float *materials = &graph.materials()[voxel];
+                give(to.number,
+                     rule(graph.operand().of<R>(materials[0]), graph.operand().of<R>(materials[to.step]), to.kind));
+            }
+        }
+    };
+    std::visit(weigh, graph.weights());
+}
 
 } // namespace
 
@@ -35,23 +57,24 @@ void Window<Word>::open(const Field &field, const Box &box) {
     nearest_.assign(voxels, far_away<Word>);
     label_.assign(voxels, no_label);
     back_.assign(voxels * backward_edges, far_away<Word>);
+    reach_.clear(); // nothing to copy where it grows
     reach_.resize(voxels);
     stolen_.assign(voxels, 0);
     for (std::vector<Span> *spans : {&fresh_[0], &fresh_[1], &touched_})
         spans->assign(rows, Span{});
     box_ = box;
-    for (uint64_t z = 0; z < box.extent[2]; ++z)
-        for (uint64_t y = 0; y < box.extent[1]; ++y)
-            fill_row(field, y, z);
-    for (size_t v = 0; v < voxels; ++v)
-        reach_[v].lane.fill(nearest_[v]);
-
     run_ = Settle<Word>{};
     run_.sizes = sizes_;
     for (unsigned n = 0; n < backward_edges; ++n) {
         const Neighbour &to = field.grid().neighbour(n);
         run_.step[n] = to.dx + static_cast<ptrdiff_t>(sizes_[0]) * (to.dy + static_cast<ptrdiff_t>(sizes_[1]) * to.dz);
     }
+    for (uint64_t z = 0; z < box.extent[2]; ++z)
+        for (uint64_t y = 0; y < box.extent[1]; ++y)
+            fill_row(field, y, z);
+    for (size_t v = 0; v < voxels; ++v)
+        reach_[v].lane.fill(nearest_[v]);
+
     run_.nearest = nearest_.data();
     run_.back = back_.data();
     run_.reach = reach_.data()->lane.data();
@@ -63,24 +86,24 @@ void Window<Word>::open(const Field &field, const Box &box) {
 
 template <typename Word>
 void Window<Word>::fill_row(const Field &field, uint64_t y, uint64_t z) {
-    const Grid &grid = field.grid();
     const std::array<uint64_t, 3> start = {box_.origin[0], box_.origin[1] + y, box_.origin[2] + z};
     const size_t first = local(start);
-    const uint64_t voxel = grid.index(start[0], start[1], start[2]);
+    const uint64_t voxel = field.grid().index(start[0], start[1], start[2]);
     for (uint64_t x = 0; x < box_.extent[0]; ++x) {
         if (!field.reached(voxel + x))
             continue;
         nearest_[first + x] = static_cast<Word>(field.distance(voxel + x));
         label_[first + x] = field.label(voxel + x);
-        const uint32_t inside = grid.inside({start[0] + x, start[1], start[2]}) & field.graph().open_edges(voxel + x);
-        for (unsigned n = 0; n < backward_edges; ++n) {
-            const Neighbour &to = grid.neighbour(n);
-            if ((inside >> n & 1) == 0 || !field.reached(voxel + x + static_cast<uint64_t>(to.step)))
-                continue;
-            const uint64_t weight = field.graph().weight(voxel + x, to);
+        // Neighbours behind are filled already: those that are not reached, or not in the box, are far away.
+        uint32_t joined = 0;
+        const uint32_t open = field.graph().open_edges(voxel + x);
+        for (unsigned n = 0; n < backward_edges; ++n)
+            if ((open >> n & 1) != 0 && nearest_[first + x + static_cast<size_t>(run_.step[n])] < far_away<Word>)
+                joined |= 1u << n;
+        for_weights(field.graph(), voxel + x, joined, [&](unsigned n, uint64_t weight) {
             if (weight != 0)
                 back_[(first + x) * backward_edges + n] = static_cast<Word>(std::min<uint64_t>(weight, far_away<Word>));
-        }
+        });
     }
 }
 

@@ -39,6 +39,7 @@ void add_voronoi(Cases &cases);
 void add_updates(Cases &cases);
 void add_weights(Cases &cases);
 void add_thesis_chapter2(Cases &cases);
+void add_thesis_weights(Cases &cases);
 void add_thesis_chapter3(Cases &cases);
 void add_thesis_databases(Cases &cases);
 

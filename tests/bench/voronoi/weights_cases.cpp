@@ -85,6 +85,31 @@ void weights_case(Row &row, uint32_t method, const std::string &topology) {
     row.extras["naive_queries_one_in"] = method == LOCUS_METHOD_DISTANCE_RATIO ? 1 : every;
 }
 
+/// Two threads beside one, wall time both; rows the same.
+void threads_case(Row &row) {
+    const Volume volume = plate("constant", 20);
+    const auto voxels = static_cast<double>(volume.voxels());
+    Solver two(volume, {"", LOCUS_ENGINE_AUTO, 2, LOCUS_WORD_32}),
+        one(volume, {"t1", LOCUS_ENGINE_AUTO, 1, LOCUS_WORD_32});
+    Notes unused;
+    two.solve(unused);
+    one.solve(unused);
+    Weights by_two, by_one;
+    const auto measure = [voxels](const Solver &solver, Weights &weights) {
+        weights.reset();
+        return 1e6 * timed_wall([&] { weights = make_weights(solver, LOCUS_METHOD_SIBSON); }) / voxels;
+    };
+    race(row,
+         {{"", [&](Notes &) { return measure(two, by_two); }}, {"t1", [&](Notes &) { return measure(one, by_one); }}});
+    row.threads = 2;
+    row.target = simd_name(two.info().simd);
+    bool same = true;
+    for (uint64_t voxel = 0; voxel < volume.voxels(); voxel += 17) {
+        same = same && row_of(by_two, voxel, volume) == row_of(by_one, voxel, volume);
+    }
+    row.check(same, "two threads give other rows than one");
+}
+
 } // namespace
 
 void add_weights(Cases &cases) {
@@ -93,6 +118,7 @@ void add_weights(Cases &cases) {
     };
     add("sibson.plate.s20.constant", 45, LOCUS_METHOD_SIBSON, "constant");
     add("sibson.plate.s20.noise", 18, LOCUS_METHOD_SIBSON, "noise");
+    cases.push_back({"sibson.plate.s20.constant.t2", "us/query", {{"t1", 1.7}}, threads_case});
     add("laplace.plate.s20", 15, LOCUS_METHOD_LAPLACE, "constant");
     add("ratio.plate.s20", 15, LOCUS_METHOD_DISTANCE_RATIO, "constant");
 }
