@@ -191,7 +191,7 @@ TEST(Alerts, RatesAndSharesHaveThresholds) {
     Stream rates(options);
     rates.run(hour, usual);
     EXPECT_TRUE(rates.found.empty());
-    rates.run(hour, with(usual, {45.76, 4.84, 0.005, 400}));
+    rates.run(hour, with(usual, {-33.9, 18.4, 0.005, 400}));
     ASSERT_EQ(rates.found.size(), 1u);
     EXPECT_EQ(rates.found[0].kind, static_cast<uint32_t>(LOCUS_ALERT_RATE));
     EXPECT_EQ(rates.found[0].zoom, 8u);
