@@ -3,8 +3,8 @@
  * Locus keeps data that changes all the time close in memory. It holds two engines:
  * - the voxel graph (locus/graph.h, locus/diagram.h, locus/weights.h): compliance distances, Voronoi diagrams and
  *   interpolation weights on 3-D material maps;
- * - the PMQ (locus/pmq.h): the live window of a stream of geo-located records, sorted along the Z-curve; and what
- * stands out in it (locus/alerts.h).
+ * - the PMQ (locus/pmq.h): the live window of a stream of geo-located records, sorted along the Z-curve; what stands
+ * out in it (locus/alerts.h); and how it is kept on disk (locus/storage.h).
  *
  * Rules that hold everywhere:
  * - Errors: see locus/status.h. No exception, abort, exit or print ever leaves the library.
@@ -26,6 +26,7 @@
 #include <locus/graph.h>
 #include <locus/pmq.h>
 #include <locus/status.h>
+#include <locus/storage.h>
 #include <locus/weights.h>
 
 #endif

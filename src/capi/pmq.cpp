@@ -23,7 +23,7 @@ static_assert(LOCUS_KEY_END == locus::key_end);
 
 namespace {
 
-constexpr size_t first_options_size = 144, first_score_size = 48, first_stats_size = 136;
+constexpr size_t first_score_size = 48, first_stats_size = 136;
 
 // A query of a tile, whose region it is, with the bins that it needs.
 class TileQuestion : public Question {
@@ -130,7 +130,8 @@ void store_to(T *target, T value) noexcept {
 } // namespace
 
 locus_status locus_pmq_options_init(locus_pmq_options *options, size_t size) noexcept {
-    return boundary(__func__, [&] { locus::init_options(options, size, default_options(), first_options_size); });
+    return boundary(__func__,
+                    [&] { locus::init_options(options, size, default_options(), locus::first_pmq_options_size); });
 }
 
 locus_status locus_pmq_query_init(locus_pmq_query *query, size_t size) noexcept {
@@ -150,8 +151,8 @@ locus_status locus_pmq_key(double latitude, double longitude, uint64_t *key) noe
 locus_status locus_pmq_create(const locus_pmq_options *options, locus_pmq **pmq) noexcept {
     return boundary(__func__, [&] {
         need(pmq, "pmq") = nullptr;
-        *pmq =
-            new locus_pmq{std::make_shared<Store>(locus::read_options(options, default_options(), first_options_size))};
+        *pmq = new locus_pmq{
+            std::make_shared<Store>(locus::read_options(options, default_options(), locus::first_pmq_options_size))};
     });
 }
 

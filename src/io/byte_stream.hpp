@@ -1,7 +1,7 @@
 // Streams of bytes out of and into files, through zlib where they are compressed.
 #pragma once
 
-#include "io/file.hpp"
+#include "core/file.hpp"
 
 #include <memory>
 #include <vector>

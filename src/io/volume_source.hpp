@@ -1,7 +1,7 @@
 // What a header says: the volume's description and where and how its numbers are stored. One parser per format.
 #pragma once
 
-#include "io/file.hpp"
+#include "core/file.hpp"
 
 #include <locus/volume.h>
 

@@ -28,12 +28,23 @@ public:
     private:
         Departures &to_;
         std::list<std::vector<std::byte>> chunk_; // a list of one, to be spliced
+        std::list<std::vector<std::byte>> noted_; // of one or none
         size_t count_ = 0;
     };
+
+    // From now on note what leaves with a time not before `from`, for the log.
+    void note(int64_t from);
+    // What has been noted so far was not live.
+    void disregard() noexcept { noted_.clear(); }
+    // The noted records that are not before `from`, one after the other. It ends the noting.
+    std::vector<std::byte> noted(int64_t from);
+    void note_no_more() noexcept;
 
     uint64_t left() const noexcept { return left_; } // records that ever left
     size_t pending() const noexcept;
     size_t bytes() const noexcept;
+    // The records that wait, the first to leave first.
+    std::vector<std::byte> waiting() const;
     // Hand everything over, the first to leave first. False if the sink stopped; the rest waits for the next call.
     bool hand_over();
 
@@ -44,6 +55,9 @@ private:
     std::list<std::vector<std::byte>> queue_;
     size_t head_ = 0; // bytes of the first chunk already handed over
     uint64_t left_ = 0;
+    bool noting_ = false;
+    int64_t note_from_ = 0;
+    std::list<std::vector<std::byte>> noted_;
 };
 
 } // namespace locus::pmq

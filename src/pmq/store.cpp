@@ -4,10 +4,13 @@
 #include "core/error.hpp"
 #include "pmq/options.hpp"
 #include "pmq/query/queries.hpp"
+#include "pmq/query/ranges.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <unordered_set>
+#include <utility>
 
 namespace locus::pmq {
 namespace {
@@ -25,9 +28,9 @@ Store::Store(const locus_pmq_options &options)
     publish_figures();
 }
 
-Store::Writing::Writing(const Store &store) : busy_(store.busy_) {
-    if (busy_.exchange(true))
-        fail(LOCUS_E_BUSY, "another call that changes or checks the store is at work");
+Store::~Store() {
+    if (journal_)
+        journal_->close();
 }
 
 std::shared_ptr<const View> Store::view() const {
@@ -106,17 +109,54 @@ uint64_t Store::change(Change &&change) {
     return departures_.left() - left;
 }
 
+// A change that is written to the log first, if there is one. What leaves by horizon the log knows from the cutoff; if
+// more may leave, it is told afterwards.
+template <typename Change>
+uint64_t Store::logged(EntryKind kind, const Moment &moment, std::span<const std::byte> records, Change &&work) {
+    if (!journal_)
+        return change(work);
+    const bool open = options_.remove || options_.max_records != LOCUS_NO_LIMIT || options_.max_bytes != LOCUS_NO_LIMIT;
+    result_due_ = kind != EntryKind::erase && open;
+    journal_->begin(kind, result_due_, moment, records);
+    if (result_due_)
+        departures_.note(moment.cutoff);
+    try {
+        return change(work);
+    } catch (...) {
+        departures_.note_no_more();
+        journal_->undo();
+        throw;
+    }
+}
+
+void Store::log_result() {
+    if (!journal_ || !std::exchange(result_due_, false))
+        return;
+    try {
+        const Moment moment = layout_->view()->moment();
+        journal_->result(moment, departures_.noted(moment.cutoff));
+    } catch (const std::bad_alloc &) { // no call that has changed the store is out of memory
+        departures_.note_no_more();
+        publish_figures();
+        journal_->fall_behind("out of memory");
+        throw Error(LOCUS_E_IO, "log has stopped"); // short enough to need none
+    } catch (...) {
+        departures_.note_no_more();
+        publish_figures();
+        throw;
+    }
+}
+
 bool Store::insert(Bytes records, size_t count, int64_t now) {
     const Writing writing(*this);
     Eviction eviction = eviction_at(now);
-    Batch batch{};
-    evicted_ += change([&] {
-        batch = checked(records, count, now);
-        layout_->insert(batch, eviction, departures_);
-    });
+    const Batch batch = checked(records, count, now);
+    evicted_ += logged(EntryKind::insert, eviction.moment(), {batch.records, count * format_.size},
+                       [&] { layout_->insert(batch, eviction, departures_); });
     now_ = now;
     inserted_ += count;
     ++batches_;
+    log_result();
     const bool handed_over = hand_over();
     const bool told = tell(batch, eviction.moment());
     return handed_over && told && !eviction.stopped();
@@ -140,18 +180,49 @@ bool Store::tell(const Batch &batch, const Moment &moment) {
 bool Store::sweep(int64_t now, uint64_t &evicted) {
     const Writing writing(*this);
     Eviction eviction = eviction_at(now);
-    evicted = change([&] { layout_->sweep(eviction, departures_); });
+    evicted = logged(EntryKind::sweep, eviction.moment(), {}, [&] { layout_->sweep(eviction, departures_); });
     now_ = now;
     evicted_ += evicted;
+    log_result();
     const bool handed_over = hand_over();
     return handed_over && !eviction.stopped();
 }
 
 bool Store::erase(const Selection &selection, uint64_t &erased) {
     const Writing writing(*this);
-    erased = change([&] { layout_->erase(selection, departures_); });
+    erased = journal_ ? erase_logged(selection) : change([&] { layout_->erase(selection, departures_); });
     erased_ += erased;
     return hand_over();
+}
+
+namespace {
+
+// Accepts the records at known addresses.
+int32_t is_among(const void *record, void *addresses) {
+    return static_cast<const std::unordered_set<const void *> *>(addresses)->contains(record);
+}
+
+} // namespace
+
+// What is to be erased is found first, and logged; the filter is asked then.
+uint64_t Store::erase_logged(const Selection &selection) {
+    std::shared_ptr<const View> now = layout_->view();
+    const Moment moment = now->moment();
+    std::vector<std::byte> records;
+    std::unordered_set<const void *> addresses;
+    for_each_record(*now, selection, Order::any, [&](uint64_t, Bytes record) {
+        records.insert(records.end(), record, record + format_.size);
+        if (selection.filter)
+            addresses.insert(record);
+        return true;
+    });
+    now.reset(); // nobody reads, as far as this call knows
+    Selection found = selection;
+    if (selection.filter) {
+        found.filter = is_among;
+        found.filter_user = &addresses;
+    }
+    return logged(EntryKind::erase, moment, records, [&] { layout_->erase(found, departures_); });
 }
 
 void Store::log_growth(const LayoutStats &before) const {

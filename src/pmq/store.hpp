@@ -8,6 +8,8 @@
 #include "pmq/layout/layout.hpp"
 #include "pmq/observer.hpp"
 #include "pmq/query/selection.hpp"
+#include "pmq/storage/journal.hpp"
+#include "pmq/turn.hpp"
 
 #include <atomic>
 #include <memory>
@@ -21,6 +23,7 @@ class Store {
 public:
     // Throws Error(LOCUS_E_ARGUMENT) for an option out of its range.
     explicit Store(const locus_pmq_options &options);
+    ~Store();
 
     // Each is true unless a callback stopped; what was asked for has happened all the same. One thread at a time:
     // another one gets Error(LOCUS_E_BUSY).
@@ -37,17 +40,40 @@ public:
     locus_pmq_stats stats() const;
     void check() const;
 
+    // store_log.cpp: save into a folder without a store, and log what comes.
+    void attach(Folder &&folder, const locus_pmq_log_options &options, Progress &progress);
+    // The same for a store that nobody else knows yet, in a folder that may hold earlier saves; or with the log at
+    // hand.
+    void start_log(Folder &&folder, const locus_pmq_log_options &options, const Journal::Position &position,
+                   Progress &progress);
+    void attach(std::unique_ptr<Journal> journal) noexcept { journal_ = std::move(journal); }
+    void checkpoint(Progress &progress);
+    void sync();
+    locus_pmq_log_stats log_stats() const;
+
 private:
+    friend class Restoring;
     // While one lives, its thread alone may change the store.
     class Writing {
     public:
-        explicit Writing(const Store &store);
-        ~Writing() { busy_.store(false); }
+        explicit Writing(const Store &store) : turn_(store.turn_) { turn_.begin_change(); }
+        ~Writing() { turn_.end_change(); }
         Writing(const Writing &) = delete;
         Writing &operator=(const Writing &) = delete;
 
     private:
-        std::atomic<bool> &busy_;
+        Turn &turn_;
+    };
+    // While one lives, nothing changes the store. The constructor waits for that.
+    class Standing {
+    public:
+        explicit Standing(const Store &store) : turn_(store.turn_) { turn_.begin_stand(); }
+        ~Standing() { turn_.end_stand(); }
+        Standing(const Standing &) = delete;
+        Standing &operator=(const Standing &) = delete;
+
+    private:
+        Turn &turn_;
     };
 
     Eviction eviction_at(int64_t now) const;
@@ -55,6 +81,10 @@ private:
     void check_record(Bytes record, size_t index, int64_t now) const;
     template <typename Change>
     uint64_t change(Change &&change);
+    template <typename Change>
+    uint64_t logged(EntryKind kind, const Moment &moment, std::span<const std::byte> records, Change &&change);
+    uint64_t erase_logged(const Selection &selection);
+    void log_result();
     bool hand_over();
     bool tell(const Batch &batch, const Moment &moment);
     void publish_figures();
@@ -71,7 +101,10 @@ private:
     std::vector<std::byte> clamped_; // its records, if a time had to be changed
     uint64_t inserted_ = 0, evicted_ = 0, erased_ = 0, batches_ = 0, longest_pause_ns_ = 0;
 
-    mutable std::atomic<bool> busy_ = false;
+    mutable Turn turn_;
+    std::unique_ptr<Journal> journal_; // set while the store stands still
+    bool result_due_ = false;          // the change at work is an open entry of the log
+    std::atomic<bool> saving_ = false; // a checkpoint is at work
     // Where views do not last: readers share the gate, a change excludes them. Who waits for it holds the turnstile, so
     // that readers cannot starve the writer.
     mutable std::mutex turnstile_;

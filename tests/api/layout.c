@@ -237,6 +237,46 @@ int main(void) {
     FIELD(locus_alerts_stats, shown, 32);
     FIELD(locus_alerts_stats, bytes, 40);
 
+    SIZE(locus_pmq_file_info, 40);
+    FIELD(locus_pmq_file_info, struct_size, 0);
+    FIELD(locus_pmq_file_info, version, 8);
+    FIELD(locus_pmq_file_info, record, 12);
+    FIELD(locus_pmq_file_info, records, 16);
+    FIELD(locus_pmq_file_info, bytes, 24);
+    FIELD(locus_pmq_file_info, now, 32);
+
+    SIZE(locus_pmq_log_options, 40);
+    FIELD(locus_pmq_log_options, struct_size, 0);
+    FIELD(locus_pmq_log_options, sync, 8);
+    FIELD(locus_pmq_log_options, redeliver, 12);
+    FIELD(locus_pmq_log_options, sync_interval, 16);
+    FIELD(locus_pmq_log_options, sync_bytes, 24);
+    FIELD(locus_pmq_log_options, keep, 32);
+    FIELD(locus_pmq_log_options, repair, 36);
+
+    SIZE(locus_pmq_recovery, 80);
+    FIELD(locus_pmq_recovery, struct_size, 0);
+    FIELD(locus_pmq_recovery, created, 8);
+    FIELD(locus_pmq_recovery, skipped, 12);
+    FIELD(locus_pmq_recovery, number, 16);
+    FIELD(locus_pmq_recovery, saved, 24);
+    FIELD(locus_pmq_recovery, changes, 32);
+    FIELD(locus_pmq_recovery, inserted, 40);
+    FIELD(locus_pmq_recovery, departed, 48);
+    FIELD(locus_pmq_recovery, records, 56);
+    FIELD(locus_pmq_recovery, cut, 64);
+    FIELD(locus_pmq_recovery, now, 72);
+
+    SIZE(locus_pmq_log_stats, 56);
+    FIELD(locus_pmq_log_stats, struct_size, 0);
+    FIELD(locus_pmq_log_stats, number, 8);
+    FIELD(locus_pmq_log_stats, bytes, 16);
+    FIELD(locus_pmq_log_stats, unsynced, 24);
+    FIELD(locus_pmq_log_stats, changes, 32);
+    FIELD(locus_pmq_log_stats, syncs, 40);
+    FIELD(locus_pmq_log_stats, attached, 48);
+    FIELD(locus_pmq_log_stats, stopped, 52);
+
     SIZE(locus_pmq_stats, 136);
     FIELD(locus_pmq_stats, struct_size, 0);
     FIELD(locus_pmq_stats, records, 8);

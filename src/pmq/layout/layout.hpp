@@ -81,6 +81,11 @@ public:
     // `visit` says false; false if it did.
     virtual bool scan(const Place &place, const KeyRange &keys, Order order,
                       FunctionRef<bool(const Block &)> visit) const = 0;
+
+    // The number of stored records, the expired ones included; and show blocks that hold them all, in the order (key,
+    // arrival), until `visit` says false; false if it did.
+    virtual uint64_t stored() const noexcept = 0;
+    virtual bool scan_stored(FunctionRef<bool(const Block &)> visit) const = 0;
 };
 
 // A moment kept for several queries.
@@ -124,6 +129,11 @@ public:
     virtual void sweep(Eviction &eviction, Departures &departures) = 0;
     // Let go of the records that the selection accepts.
     virtual void erase(const Selection &selection, Departures &departures) = 0;
+    // For a store that is being made: take in records in the order (key, arrival), behind all that came before, in
+    // batches of `fill_batch` as a rule. Keeps no limit on records. Not all or nothing: after a failure the layout is
+    // only good for destruction. A sweep ends it.
+    virtual void fill(const Batch &batch, Eviction &eviction, Departures &departures) = 0;
+    virtual size_t fill_batch() const noexcept = 0;
 
     // The current moment. Any thread; to be asked while the view is held, or, where `views_last` is false, until the
     // next change.

@@ -57,6 +57,9 @@ void PackedArray::insert(const Batch &batch, Eviction &eviction, Departures &dep
     moment_ = eviction.moment();
 }
 
+// Few large batches, as all of them go to the end of the array: each lets it be written anew about once.
+size_t PackedArray::fill_batch() const noexcept { return std::max<size_t>(8192, array_.windows.total() / 4); }
+
 // Carry a change out that fits the limits: window by window, or, if the root's bounds or its extent make that
 // pointless, anew.
 void PackedArray::apply(const Change &change) {

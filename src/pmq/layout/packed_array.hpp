@@ -22,6 +22,10 @@ public:
     void insert(const Batch &batch, Eviction &eviction, Departures &departures) override;
     void sweep(Eviction &eviction, Departures &departures) override;
     void erase(const Selection &selection, Departures &departures) override;
+    void fill(const Batch &batch, Eviction &eviction, Departures &departures) override {
+        insert(batch, eviction, departures);
+    }
+    size_t fill_batch() const noexcept override;
     std::shared_ptr<const View> view() const override;
     std::shared_ptr<const Snapshot> snapshot() const override;
     LayoutStats stats() const override;
@@ -36,6 +40,8 @@ private:
     uint64_t count(const Place &place, const KeyRange &keys, int64_t from) const override;
     bool scan(const Place &place, const KeyRange &keys, Order order,
               FunctionRef<bool(const Block &)> visit) const override;
+    uint64_t stored() const noexcept override { return array_.windows.total(); }
+    bool scan_stored(FunctionRef<bool(const Block &)> visit) const override;
 
     // What one operation changes, sorted by (key, arrival).
     struct Change {

@@ -54,6 +54,10 @@ bool PackedArray::scan(const Place &place, const KeyRange &keys, Order, Function
     return true;
 }
 
+bool PackedArray::scan_stored(FunctionRef<bool(const Block &)> visit) const {
+    return scan({0, array_.count() - 1}, KeyRange{}, Order::key, visit);
+}
+
 LayoutStats PackedArray::stats() const {
     LayoutStats stats = counters_;
     stats.stored = array_.windows.total();

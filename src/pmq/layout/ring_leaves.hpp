@@ -24,6 +24,8 @@ public:
     void insert(const Batch &batch, Eviction &eviction, Departures &departures) override;
     void sweep(Eviction &eviction, Departures &departures) override;
     void erase(const Selection &selection, Departures &departures) override;
+    void fill(const Batch &batch, Eviction &eviction, Departures &departures) override;
+    size_t fill_batch() const noexcept override { return 8192; }
     std::shared_ptr<const View> view() const override;
     bool views_last() const noexcept override { return true; }
     std::shared_ptr<const Snapshot> snapshot() const override;
@@ -105,6 +107,10 @@ private:
     void relocate(size_t position, size_t leaf);
     void add(Target &target, uint64_t key, Bytes record) const noexcept;
     void install(Node &node, size_t leaf, const Target &target) noexcept;
+
+    // ring_fill.cpp
+    void order_by_time(Node &node, size_t leaf, std::vector<std::byte> &scratch) const;
+    void append_leaf(uint64_t key);
 
     // ring_expiry.cpp
     void collect(size_t position, int64_t cutoff, Eviction *eviction, bool thoroughly, std::vector<Cut> &cuts) const;

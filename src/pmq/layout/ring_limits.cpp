@@ -25,6 +25,7 @@ void RingLeaves::admit_late(const Batch &batch, Eviction &eviction, Departures &
         return; // they are the oldest of what is too much
     Eviction expired(format_, edition_->moment, nullptr, nullptr);
     sweep_all(edition_->moment, expired, departures);
+    departures.disregard();
     const Change change(*this, true);
     edition().moment.cutoff = std::min(edition().moment.cutoff, eviction.moment().cutoff);
 }

@@ -128,7 +128,19 @@ bool RingView::scan(const Place &place, const KeyRange &keys, Order order,
     return for_each_leaf(place, [&](size_t position, size_t leaf) {
         if (edition_.directory[position]->leaf[leaf].count == 0)
             return true;
-        return order == Order::any ? scan_ring(position, leaf, keys, visit) : scan_sorted(position, leaf, keys, visit);
+        if (order == Order::any)
+            return scan_ring(position, leaf, keys, visit);
+        const Node &node = *edition_.directory[position];
+        Block block = slots_of(node, leaf);
+        const size_t first = first_live(node, leaf, block);
+        return scan_sorted(node, leaf, first, keys, block, visit);
+    });
+}
+
+bool RingView::scan_stored(FunctionRef<bool(const Block &)> visit) const {
+    return for_each_leaf(everywhere(), [&](size_t position, size_t leaf) {
+        const Node &node = *edition_.directory[position];
+        return scan_sorted(node, leaf, 0, KeyRange{}, slots_of(node, leaf), visit);
     });
 }
 
@@ -220,13 +232,12 @@ private:
 
 } // namespace
 
-bool RingView::scan_sorted(size_t position, size_t leaf, const KeyRange &keys,
+// The entries of a leaf from `first` on.
+bool RingView::scan_sorted(const Node &node, size_t leaf, size_t first, const KeyRange &keys, Block block,
                            FunctionRef<bool(const Block &)> visit) const {
-    const Node &node = *edition_.directory[position];
-    Block block = slots_of(node, leaf);
     LeafOrder order;
     const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf].memory);
-    for (size_t i = first_live(node, leaf, block); i < node.leaf[leaf].count; ++i) {
+    for (size_t i = first; i < node.leaf[leaf].count; ++i) {
         const size_t slot = shape_.slot(node.leaf[leaf].head, i);
         if (!keys.contains(leaf_keys[slot]))
             continue;

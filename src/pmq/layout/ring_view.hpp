@@ -23,6 +23,8 @@ public:
     uint64_t count(const Place &place, const KeyRange &keys, int64_t from) const override;
     bool scan(const Place &place, const KeyRange &keys, Order order,
               FunctionRef<bool(const Block &)> visit) const override;
+    uint64_t stored() const noexcept override { return edition_.stored; }
+    bool scan_stored(FunctionRef<bool(const Block &)> visit) const override;
 
     // Call visit(node's position, leaf) for the leaves of a place until it returns false; false if it did.
     template <typename Visit>
@@ -52,7 +54,8 @@ private:
     uint64_t highest(size_t position, size_t leaf) const noexcept;
     size_t first_live(const Node &node, size_t leaf, Block &block) const noexcept;
     bool scan_ring(size_t position, size_t leaf, const KeyRange &keys, FunctionRef<bool(const Block &)> visit) const;
-    bool scan_sorted(size_t position, size_t leaf, const KeyRange &keys, FunctionRef<bool(const Block &)> visit) const;
+    bool scan_sorted(const Node &node, size_t leaf, size_t first, const KeyRange &keys, Block block,
+                     FunctionRef<bool(const Block &)> visit) const;
 
     const Edition &edition_;
     const RecordFormat &format_;

@@ -1,0 +1,75 @@
+// Filling a new store.
+#include "pmq/restoring.hpp"
+
+#include "core/zcurve.hpp"
+
+#include <algorithm>
+
+namespace locus::pmq {
+
+Restoring::Restoring(Store &store, int64_t now)
+    : store_(store), format_(store.format_),
+      eviction_(store.format_, Moment::at(now, store.options_.horizon), nullptr, nullptr),
+      enough_(store.layout_->fill_batch()) {}
+
+void Restoring::add(uint64_t key, Bytes record) {
+    keys_.push_back(key);
+    records_.insert(records_.end(), record, record + format_.size);
+    oldest_ = std::min(oldest_, format_.time(record));
+    if (keys_.size() >= enough_)
+        flush();
+}
+
+void Restoring::flush() {
+    if (keys_.empty())
+        return;
+    store_.layout_->fill({records_.data(), keys_.data(), keys_.size(), oldest_}, eviction_, store_.departures_);
+    store_.inserted_ += keys_.size();
+    keys_.clear();
+    records_.clear();
+    oldest_ = INT64_MAX;
+    enough_ = store_.layout_->fill_batch();
+}
+
+void Restoring::insert(std::span<const std::byte> records) {
+    flush();
+    const size_t count = records.size() / format_.size;
+    int64_t oldest = INT64_MAX;
+    keys_.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+        const Bytes record = records.data() + i * format_.size;
+        keys_[i] = key_of(format_.latitude(record), format_.longitude(record));
+        oldest = std::min(oldest, format_.time(record));
+    }
+    store_.layout_->insert({records.data(), keys_.data(), count, oldest}, eviction_, store_.departures_);
+    store_.inserted_ += count;
+    keys_.clear();
+}
+
+void Restoring::depart(Bytes record) {
+    constexpr size_t together = 8192;
+    if (!leaving_)
+        leaving_.emplace(store_.departures_);
+    leaving_->add(record);
+    ++store_.inserted_;
+    if (leaving_->count() == together)
+        flush_departures();
+}
+
+void Restoring::flush_departures() {
+    if (leaving_)
+        leaving_->commit();
+    leaving_.reset();
+}
+
+void Restoring::finish() {
+    flush();
+    flush_departures();
+    store_.layout_->sweep(eviction_, store_.departures_);
+    store_.layout_->insert({nullptr, nullptr, 0, INT64_MAX}, eviction_, store_.departures_); // the limit of memory
+    store_.evicted_ = store_.departures_.left();
+    store_.now_ = moment().now;
+    store_.publish_figures();
+}
+
+} // namespace locus::pmq

@@ -1,0 +1,37 @@
+// Making a store from what was saved: first the saved records, in the order (key, arrival), then the batches since.
+#pragma once
+
+#include "pmq/store.hpp"
+
+#include <optional>
+
+namespace locus::pmq {
+
+class Restoring {
+public:
+    // The store is new; `now` is the clock it will have. Its predicate is not asked, its callbacks are not called.
+    Restoring(Store &store, int64_t now);
+
+    void add(uint64_t key, Bytes record); // a saved one
+    void insert(std::span<const std::byte> records);
+    // It has left: hand it over as soon as the store is used.
+    void depart(Bytes record);
+    void finish(); // horizon and limits hold from now on
+
+    const Moment &moment() const noexcept { return eviction_.moment(); }
+
+private:
+    void flush();
+    void flush_departures();
+
+    Store &store_;
+    const RecordFormat &format_;
+    Eviction eviction_;
+    std::vector<uint64_t> keys_; // of what has been added
+    std::vector<std::byte> records_;
+    int64_t oldest_ = INT64_MAX;
+    size_t enough_;
+    std::optional<Departures::Group> leaving_;
+};
+
+} // namespace locus::pmq
