@@ -40,6 +40,7 @@ Cases all_cases() {
     add_pmq_insert(cases);
     add_pmq_window(cases);
     add_pmq_queries(cases);
+    add_pmq_storage(cases);
     add_voronoi(cases);
     add_updates(cases);
     add_weights(cases);
