@@ -142,12 +142,13 @@ public:
     void overwrite(uint64_t offset, std::span<const std::byte> bytes) { write_at(file_, path_, offset, bytes); }
     uint64_t size() const { return size_; }
     void commit() { // flush to the disk and rename
+        const std::string folder = folder_of(path_);
         if (::fsync(file_.number()) != 0)
             fail_io(path_, "cannot flush to the disk", errno);
         if (::rename(temporary_.c_str(), path_.c_str()) != 0)
             fail_io(path_, "cannot put in place", errno);
         file_.close();
-        flush_folder(folder_of(path_));
+        flush_folder(folder);
     }
 
 private:
