@@ -13,7 +13,9 @@ for job in "$@"; do
 done
 jobs=$(printf '%s|' "$@" | sed 's/|$//')
 wanted=$(grep -E "^($jobs) " "$list")
-have=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' 2>/dev/null | awk '$2 == "installed" {print $1}' || true)
+# What is installed, under its own name and under those it provides (a nodejs may bring npm along).
+have=$(dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' 2>/dev/null | sed -n 's/^installed //p' | tr ',' '\n' |
+    awk '{print $1}' || true)
 tell() { printf '%s\n' "$wanted" | awk -v p="$1" '$2 == p {$1 = ""; print "  -" $0; exit}'; }
 for package in $(printf '%s\n' "$wanted" | awk '{print $2}' | sort -u); do
     printf '%s\n' "$have" | grep -qxF "$package" || missing="$missing $package"

@@ -1,7 +1,8 @@
 // Alerts: rectangles on the map as they come, and a list whose entries fly there.
 import L from './leaflet.js';
 import { get } from './api.js';
-import { calm, element, find } from './dom.js';
+import { element, find } from './dom.js';
+import { flyToBounds } from './fly.js';
 import { clock, readable, short } from './format.js';
 import { boundsOf } from './rubber.js';
 import { state } from './state.js';
@@ -9,6 +10,7 @@ import * as tabs from './tabs.js';
 import { report, toast } from './toast.js';
 
 const KEPT = 100;
+const BRIGHT = 10; // of the newest, whose rectangles stand out
 const FRESH_MS = 5000;
 const LOOK_ZOOM = 11;
 
@@ -19,15 +21,9 @@ let known = []; // newest first: { alert, layer, item }
 let unseen = 0;
 
 export function fly(entry) {
-  const bounds = boundsOf(entry.alert.box, map);
-  const options = { maxZoom: LOOK_ZOOM, padding: [40, 40], ...panelPadding() };
-  if (calm()) map.fitBounds(bounds, { ...options, animate: false });
-  else map.flyToBounds(bounds, { ...options, duration: 1.2 });
+  flyToBounds(map, boundsOf(entry.alert.box, map), LOOK_ZOOM);
   if (tabs.small()) tabs.fold();
 }
-
-// The panel covers part of the map: what is flown to lies beside it.
-const panelPadding = () => (tabs.small() ? {} : { paddingTopLeft: [40, 90], paddingBottomRight: [400, 120] });
 
 export const flyToLatest = () => (known.length ? fly(known[0]) : toast('There are no alerts yet.'));
 
@@ -57,9 +53,13 @@ export function add(alert, fresh = true) {
   const entry = make(alert, fresh);
   known = [entry, ...known].sort((a, b) => b.alert.id - a.alert.id);
   while (known.length > KEPT) known.pop().layer.remove();
+  known.forEach(({ layer }, i) => layer._path?.classList.toggle('old', i >= BRIGHT));
   box.replaceChildren(...known.map(({ item }) => item));
   empty.hidden = true;
-  if (fresh && state.tab !== 'alerts') ++unseen;
+  if (fresh) {
+    find('announcer').textContent = `Alert: ${title(alert)}`;
+    if (state.tab !== 'alerts') ++unseen;
+  }
   count();
 }
 
@@ -80,10 +80,15 @@ export async function load() {
   }
 }
 
+// Some servers look for no bursts.
+export function allow(allowed) {
+  if (!allowed) empty.textContent = 'This server does not look for bursts.';
+}
+
 export function start(onMap) {
   map = onMap;
   empty = element('p.hint', {}, 'No alerts yet. Where records suddenly come much faster than before, a rectangle appears on the map and an entry here.');
-  box = element('ol.alerts', { id: 'alert-list', 'aria-live': 'polite' });
+  box = element('ol.alerts', { id: 'alert-list' });
   find('pane-alerts').append(element('h2', {}, 'Bursts in the stream'), empty, box);
   addEventListener('pane', count);
 }

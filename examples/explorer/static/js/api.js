@@ -25,10 +25,12 @@ export const get = async (path, parameters, signal) => (await fetched(path, para
 
 export const box = ({ south, west, north, east }) => [south, west, north, east].join();
 
-// Requests of which only the latest counts: `work(get)` is given a get that a newer call ends. Answers undefined when it was overtaken.
+// Requests of which only the latest counts: `work(get)` is given a get that a newer call ends; one that is not `pressing` gives way to
+// what is on its way. Answers undefined when it was overtaken or gave way.
 export function latest() {
   let controller = null;
-  return async (work) => {
+  return async (work, pressing = true) => {
+    if (controller && !pressing) return undefined;
     controller?.abort();
     const mine = controller = new AbortController();
     try {
@@ -37,6 +39,8 @@ export function latest() {
     } catch (error) {
       if (mine.signal.aborted) return undefined;
       throw error;
+    } finally {
+      if (controller === mine) controller = null;
     }
   };
 }

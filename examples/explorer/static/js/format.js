@@ -43,7 +43,7 @@ export function clock(time) {
 export const moment = (time) => `${new Date(time / 1000).toISOString().slice(0, 10)} ${clock(time)}`;
 
 export const position = (latitude, longitude) =>
-  `${Math.abs(latitude).toFixed(4)}° ${latitude < 0 ? 'S' : 'N'}, ${Math.abs(longitude).toFixed(4)}° ${longitude < 0 ? 'W' : 'E'}`;
+  `${Math.abs(latitude).toFixed(3)}° ${latitude < 0 ? 'S' : 'N'}, ${Math.abs(longitude).toFixed(3)}° ${longitude < 0 ? 'W' : 'E'}`;
 
 // Text of the stream as one can read it: control characters and marks that turn the writing direction appear as their symbols.
 export const readable = (text) => text

@@ -6,7 +6,7 @@ import { fetched } from './api.js';
 export const HeatLayer = L.GridLayer.extend({
   options: { className: 'heat' },
 
-  // `parameters()` tells what tiles are asked with; `failed(error)` hears of those that did not come.
+  // `parameters(zoom)` tells what tiles are asked with; `failed(error)` hears of those that did not come.
   initialize(parameters, failed, options) {
     L.setOptions(this, options);
     this.parameters = parameters;
@@ -17,7 +17,7 @@ export const HeatLayer = L.GridLayer.extend({
   createTile(coords, done) {
     const { x: width, y: height } = this.getTileSize();
     const tile = Object.assign(document.createElement('canvas'), { width, height, className: 'heat-tile' });
-    this.load(tile, coords, this.parameters())
+    this.load(tile, coords)
       .then((picture) => {
         this.paint(tile, picture);
         done(null, tile);
@@ -28,10 +28,10 @@ export const HeatLayer = L.GridLayer.extend({
     return tile;
   },
 
-  async load(tile, { x, y, z }, parameters) {
+  async load(tile, { x, y, z }) {
     tile.request?.abort();
     const request = tile.request = new AbortController();
-    const answer = await fetched(`/tiles/${z}/${x}/${y}.png`, parameters, request.signal);
+    const answer = await fetched(`/tiles/${z}/${x}/${y}.png`, this.parameters(z), request.signal);
     return createImageBitmap(await answer.blob());
   },
 
@@ -47,9 +47,8 @@ export const HeatLayer = L.GridLayer.extend({
     if (this.refreshing) return false;
     this.refreshing = true;
     try {
-      const parameters = this.parameters();
-      const tiles = Object.values(this._tiles ?? {});
-      const pictures = await Promise.allSettled(tiles.map(({ el, coords }) => this.load(el, this._wrapCoords(coords), parameters)));
+      const tiles = Object.values(this._tiles ?? {}).filter(({ current }) => current);
+      const pictures = await Promise.allSettled(tiles.map(({ el, coords }) => this.load(el, this._wrapCoords(coords))));
       pictures.forEach(({ status, value, reason }, i) => {
         if (status === 'fulfilled') this.paint(tiles[i].el, value);
         else if (reason.name !== 'AbortError') this.failed(reason);

@@ -15,11 +15,15 @@ let timer = 0;
 let last = 0; // when a drawing ended
 let cost = 0; // milliseconds that it took
 
-const look = () => ({ map: state.colours, scale: state.scale, bins: state.bins, blur: state.blur, ...range() });
+// Closer up records lie further apart: larger squares keep them visible.
+const grain = (zoom) => (zoom <= 4 ? 256 : zoom <= 8 ? 128 : 64);
+
+const look = (zoom) => ({ map: state.colours, scale: state.scale, bins: state.bins || grain(zoom), blur: state.blur, ...range() });
 
 async function scale() {
   try {
-    legend.show(await get('/scale', { z: Math.round(map.getZoom()), ...look() }));
+    const z = map.getZoom();
+    legend.show(await get('/scale', { z, ...look(z) }));
   } catch (error) {
     report(error);
   }
@@ -56,7 +60,7 @@ function again() {
 
 export function start(onMap) {
   map = onMap;
-  layer = new HeatLayer(look, report, { maxZoom: map.getMaxZoom(), updateWhenIdle: false, keepBuffer: 1 }).addTo(map);
+  layer = new HeatLayer(look, report, { maxZoom: map.getMaxZoom(), updateWhenIdle: false, updateWhenZooming: false, keepBuffer: 1 }).addTo(map);
   on(['colours', 'scale', 'bins', 'blur', 'at', 'window'], again);
   map.on('zoomend', scale);
   document.addEventListener('visibilitychange', () => document.hidden || again());

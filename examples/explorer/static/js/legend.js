@@ -3,7 +3,7 @@ import { context, element, find } from './dom.js';
 import { short } from './format.js';
 import { on, set, state } from './state.js';
 
-const GRAINS = [[256, 'fine'], [128, 'medium'], [64, 'coarse'], [32, 'blocks']];
+const GRAINS = [[0, 'by zoom'], [256, 'fine'], [128, 'medium'], [64, 'coarse'], [32, 'blocks']];
 const BLURS = [[0, 'sharp'], [1, 'soft'], [2, 'softer'], [4, 'softest']];
 
 let shown = null;

@@ -41,7 +41,7 @@ const codes = {
   radius: { write: String, read: (text) => within(number(text), 1, 2e7) },
   period: { write: String, read: (text) => within(number(text), 1, 1e9) },
   k: { write: String, read: (text) => within(Math.round(number(text)), 1, 1000) },
-  bins: { write: String, read: (text) => [32, 64, 128, 256].find((bins) => bins === number(text)) },
+  bins: { write: String, read: (text) => [0, 32, 64, 128, 256].find((bins) => bins === number(text)) },
   blur: { write: String, read: (text) => within(Math.round(number(text)), 0, 4) },
   colours: { write: String, read: word },
   scale: { write: String, read: word },
@@ -52,7 +52,7 @@ const codes = {
 export function read(hash = location.hash) {
   const found = {};
   for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ''))) {
-    const value = codes[name]?.read(text);
+    const value = Object.hasOwn(codes, name) ? codes[name].read(text) : undefined;
     if (value !== undefined) found[name] = value;
   }
   return found;

@@ -64,10 +64,11 @@ function showConnection(kind, seconds) {
   box.querySelector('.text').textContent = texts[kind];
 }
 
+let kind = 'connecting'; // of the connection
+
 function connect(info) {
-  let kind = 'connecting';
   const tell = (to, seconds) => {
-    if (to === 'live' && kind !== 'live') alerts.load();
+    if (to === 'live' && kind !== 'live' && info.alerts) alerts.load();
     showConnection(kind = to, seconds);
   };
   on(['at'], () => showConnection(kind));
@@ -85,7 +86,7 @@ function connect(info) {
 // What the selection, the best records and the time line show is asked for again while the stream runs.
 function keepAsking() {
   setInterval(() => {
-    if (document.hidden || time.paused()) return;
+    if (document.hidden || time.paused() || kind !== 'live') return;
     selection.refresh();
     top.refresh();
   }, ASK_MS);
@@ -137,11 +138,17 @@ async function start() {
   followView(map);
   link.start();
   startKeys(map);
+  // The address behind '#' is the state: this link must not change it.
+  document.querySelector('.skip').addEventListener('click', (event) => {
+    event.preventDefault();
+    find('map').focus();
+  });
   find('copy-link').addEventListener('click', copyLink);
 
   const [info] = await Promise.all([get('/info'), addBasemap(map).then((layer) => (base = layer))]);
   legend.start(info);
   heat.start(map);
+  alerts.allow(info.alerts);
   connect(info);
   keepAsking();
   document.documentElement.dataset.ready = Math.round(performance.now());

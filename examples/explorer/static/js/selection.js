@@ -3,6 +3,7 @@ import L from './leaflet.js';
 import { box as boxText, latest } from './api.js';
 import { element, find } from './dom.js';
 import { Dots } from './dots.js';
+import { flyTo } from './fly.js';
 import { count, metres, position, readable } from './format.js';
 import { list, pager } from './records.js';
 import { Rubber, boundsOf, boxOf } from './rubber.js';
@@ -21,7 +22,10 @@ let cursors = [null]; // where each page begins, as far as they have been turned
 const ask = latest();
 
 export const dragged = () => rubber.dragged;
-export const clear = () => set({ box: null });
+export function clear() {
+  rubber.arm(false);
+  set({ box: null });
+}
 
 export function select(box) {
   set({ box });
@@ -99,7 +103,7 @@ export async function refresh(anew = false) {
   const held = !anew && (page > 0 || parts.records.matches(':hover, :focus-within'));
   try {
     const answer = await ask((get) => Promise.all([get('/count', what), get('/aggregate', { ...what, by: 'word', k: WORDS }),
-      held ? null : get('/records', { ...what, limit: PAGE, after: cursors[page] })]));
+      held ? null : get('/records', { ...what, limit: PAGE, after: cursors[page] })]), anew);
     if (!answer || !state.box) return;
     const [{ count: total }, words, records] = answer;
     parts.figure.textContent = count(total);
@@ -112,8 +116,7 @@ export async function refresh(anew = false) {
 
 function showRecords({ records, next }, total) {
   cursors[page + 1] = next;
-  const fly = ({ lat, lon }) => map.flyTo([lat, lon], Math.max(map.getZoom(), 12));
-  parts.records.replaceChildren(list(records, { chosen: (record) => dots.choose(record), opened: fly }));
+  parts.records.replaceChildren(list(records, { chosen: (record) => dots.choose(record), opened: (record) => flyTo(map, record) }));
   parts.pages.replaceChildren(...(total > PAGE ? [pager(page, PAGE, total, next !== null, turn)] : []));
   dots.show(records);
 }

@@ -3,7 +3,7 @@ export const defaults = {
   view: null, // { latitude, longitude, zoom }
   colours: 'inferno',
   scale: 'log',
-  bins: 256, // a side of a tile
+  bins: 0, // a side of a tile; 0: by the zoom
   blur: 0,
   theme: 'auto', // auto, dark, light
   tab: 'selection',

@@ -1,6 +1,6 @@
 // The time window that everything on the page is asked for, and the timeline that moves it.
 import { context, colour, debounced, find } from './dom.js';
-import { get } from './api.js';
+import { box, get } from './api.js';
 import { clock as clockText, duration, moment } from './format.js';
 import { on, set, state } from './state.js';
 import { report } from './toast.js';
@@ -35,6 +35,8 @@ export function step(direction) {
   set({ at: to >= stream.now ? null : Math.round(Math.max(stream.oldest, to)) });
 }
 
+let sliding = false; // the user holds the slider
+
 const share = (time) => Math.max(0, Math.min(1, (time - stream.oldest) / span()));
 
 function label() {
@@ -48,7 +50,7 @@ function show() {
   const known = stream.now !== null;
   const end = paused() ? state.at : stream.now;
   slider.disabled = !known;
-  if (known && document.activeElement !== slider) slider.value = Math.round(STEPS * share(end));
+  if (known && !sliding) slider.value = Math.round(STEPS * share(end));
   slider.setAttribute('aria-valuetext', label());
   find('time-label').textContent = label();
   find('time-oldest').textContent = known ? clockText(stream.oldest) : '';
@@ -60,13 +62,13 @@ function show() {
   draw();
 }
 
-// The arrivals over time, as bars; those of the window are lit.
+// The arrivals over time, in the selection if there is one, as bars; those of the window are lit.
 let bars = [];
-let asked = 0;
+let asked = -Infinity;
 
 async function askBars() {
   const step = Math.max(1, Math.ceil(span() / SECOND / BARS));
-  const { groups } = await get('/aggregate', { by: 'time', step });
+  const { groups } = await get('/aggregate', { by: 'time', step, box: state.box && box(state.box) });
   bars = groups.map(({ from, count }) => ({ start: from, end: from + step * SECOND, count }));
   draw();
 }
@@ -107,10 +109,13 @@ export function start() {
   find('pause').addEventListener('click', togglePause);
   find('step-back').addEventListener('click', () => step(-1));
   find('step-forward').addEventListener('click', () => step(1));
+  find('time').addEventListener('input', () => (sliding = true));
+  find('time').addEventListener('change', () => (sliding = false));
   find('time').addEventListener('input', debounced(40, ({ target }) => {
     const place = Number(target.value);
     set({ at: place >= STEPS ? null : Math.round(stream.oldest + span() * place / STEPS) });
   }));
   on(['at', 'window'], settings);
+  on(['box'], () => (asked = -Infinity));
   settings();
 }

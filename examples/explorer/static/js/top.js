@@ -3,6 +3,7 @@ import L from './leaflet.js';
 import { latest } from './api.js';
 import { debounced, element, find, slider } from './dom.js';
 import { Dots } from './dots.js';
+import { flyTo } from './fly.js';
 import { duration, metres, position } from './format.js';
 import { list } from './records.js';
 import { on, set, state } from './state.js';
@@ -76,11 +77,10 @@ export async function refresh(anew = false) {
   if (!state.top || (!anew && parts.records.matches(':hover, :focus-within'))) return;
   const { top: { latitude: lat, longitude: lon }, alpha, radius, period, k } = state;
   try {
-    const answer = await ask((get) => get('/topk', { lat, lon, alpha, radius, period, k, ...range() }));
+    const answer = await ask((get) => get('/topk', { lat, lon, alpha, radius, period, k, ...range() }), anew);
     if (!answer || !state.top) return;
-    const fly = (record) => map.flyTo([record.lat, record.lon], Math.max(map.getZoom(), 12));
     const none = element('p.hint', {}, `No records within ${metres(radius)} that are younger than ${duration(period)}.`);
-    parts.records.replaceChildren(answer.records.length ? list(answer.records, { chosen: (record) => dots.choose(record), opened: fly }) : none);
+    parts.records.replaceChildren(answer.records.length ? list(answer.records, { chosen: (record) => dots.choose(record), opened: (record) => flyTo(map, record) }) : none);
     dots.show(answer.records);
   } catch (error) {
     report(error);

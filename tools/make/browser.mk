@@ -1,0 +1,15 @@
+# The explorer's page in a real browser: playwright-core from npm, at the version that its lock file names, drives Debian's chromium.
+# PICTURES=folder keeps screenshots; BROWSER_ONLY=map runs tests/browser/map.test.mjs alone.
+BROWSER_MODULES := tests/browser/node_modules/.package-lock.json
+BROWSER_TESTS := $(if $(BROWSER_ONLY),$(BROWSER_ONLY:%=tests/browser/%.test.mjs),$(sort $(wildcard tests/browser/*.test.mjs)))
+$(BROWSER_MODULES): tests/browser/package-lock.json | $(call needs,browser)
+	@npm ci --prefix tests/browser --no-audit --no-fund --silent
+	@touch $@
+
+ifneq ($(EXAMPLE_explorer),)
+.PHONY: browser-test
+browser-test: $(EXAMPLE_explorer) $(BROWSER_MODULES) | $(call needs,browser) ## the explorer's page in Chromium
+	$(STAGE) $(FLAVOUR)$@ env EXPLORER=$(EXAMPLE_explorer) $(if $(PICTURES),PICTURES=$(abspath $(PICTURES))) node --test --test-concurrency=1 $(BROWSER_TESTS)
+CHECKS += browser-test
+check: browser-test
+endif
