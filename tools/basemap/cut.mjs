@@ -56,5 +56,6 @@ export function cutLine(line) {
     }
     parts.at(-1).push(point);
   });
-  return parts.map((part) => shifted(part, 360 * Math.floor((part[Math.floor(part.length / 2)][0] + 180) / 360)));
+  const middle = (part) => (part[0][0] + part.at(-1)[0]) / 2; // strictly within a world, where the ends may lie on its edge
+  return parts.map((part) => shifted(part, 360 * Math.floor((middle(part) + 180) / 360)));
 }

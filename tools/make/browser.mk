@@ -13,3 +13,10 @@ browser-test: $(EXAMPLE_explorer) $(BROWSER_MODULES) | $(call needs,browser) ## 
 CHECKS += browser-test
 check: browser-test
 endif
+
+# What the page takes from npm packages, made anew and compared.
+.PHONY: check-page-files
+check-page-files: | $(call needs,browser)
+	$(STAGE) $(FLAVOUR)$@ tests/browser/derived.sh $(OUT)/page-files
+CHECKS += check-page-files
+check: check-page-files
