@@ -50,7 +50,11 @@ void send_reply(const Reply &reply, httplib::Response &to) {
             return more;
         });
     } else if (reply.status != 304) {
-        to.set_content(*reply.body, reply.type);
+        // Not as a body, which httplib would compress: Brotli at its best takes seconds for the map of the world.
+        const auto write = [body = reply.body](size_t offset, size_t length, httplib::DataSink &sink) {
+            return sink.write(body->data() + offset, length);
+        };
+        to.set_content_provider(reply.body->size(), reply.type, write);
     }
 }
 

@@ -17,15 +17,22 @@ export const HeatLayer = L.GridLayer.extend({
   createTile(coords, done) {
     const { x: width, y: height } = this.getTileSize();
     const tile = Object.assign(document.createElement('canvas'), { width, height, className: 'heat-tile' });
-    this.load(tile, coords)
-      .then((picture) => {
-        this.paint(tile, picture);
-        done(null, tile);
-      }, (error) => {
-        if (error.name !== 'AbortError') this.failed(error);
-        done(error, tile);
-      });
+    tile.first = done;
+    this.load(tile, coords).then((picture) => this.paint(tile, picture), (error) => this.miss(tile, error));
     return tile;
+  },
+
+  // A tile's first picture, or that there is none, is told to Leaflet, whichever request brings it.
+  settle(tile, error) {
+    tile.first?.(error, tile);
+    tile.first = null;
+  },
+
+  // A request that was overtaken or whose tile has left is no failure.
+  miss(tile, error) {
+    if (error.name === 'AbortError') return;
+    this.failed(error);
+    this.settle(tile, error);
   },
 
   async load(tile, { x, y, z }) {
@@ -40,6 +47,7 @@ export const HeatLayer = L.GridLayer.extend({
     pen.globalCompositeOperation = 'copy';
     pen.drawImage(picture, 0, 0, tile.width, tile.height);
     picture.close();
+    this.settle(tile, null);
   },
 
   // Draw all tiles anew. Answers when they have changed; while one redrawing is on its way, others wait for the next call.
@@ -51,7 +59,7 @@ export const HeatLayer = L.GridLayer.extend({
       const pictures = await Promise.allSettled(tiles.map(({ el, coords }) => this.load(el, this._wrapCoords(coords))));
       pictures.forEach(({ status, value, reason }, i) => {
         if (status === 'fulfilled') this.paint(tiles[i].el, value);
-        else if (reason.name !== 'AbortError') this.failed(reason);
+        else this.miss(tiles[i].el, reason);
       });
       return true;
     } finally {
