@@ -6,13 +6,11 @@ $(BROWSER_MODULES): tests/browser/package-lock.json | $(call needs,browser)
 	@npm ci --prefix tests/browser --no-audit --no-fund --silent
 	@touch $@
 
-ifneq ($(EXAMPLE_explorer),)
 .PHONY: browser-test
 browser-test: $(EXAMPLE_explorer) $(BROWSER_MODULES) | $(call needs,browser) ## the explorer's page in Chromium
 	$(STAGE) $(FLAVOUR)$@ env EXPLORER=$(EXAMPLE_explorer) $(if $(PICTURES),PICTURES=$(abspath $(PICTURES))) node --test --test-concurrency=1 $(BROWSER_TESTS)
 CHECKS += browser-test
 check: browser-test
-endif
 
 # What the page takes from npm packages, made anew and compared.
 .PHONY: check-page-files

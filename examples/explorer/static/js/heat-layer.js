@@ -50,20 +50,29 @@ export const HeatLayer = L.GridLayer.extend({
     this.settle(tile, null);
   },
 
-  // Draw all tiles anew. Answers when they have changed; while one redrawing is on its way, others wait for the next call.
+  // Draw all tiles anew; answers when they have changed. Asked while it is at it, it begins again with what is to be shown by then.
   async refresh() {
-    if (this.refreshing) return false;
+    if (this.refreshing) {
+      this.overtaken = true;
+      return;
+    }
     this.refreshing = true;
     try {
-      const tiles = Object.values(this._tiles ?? {}).filter(({ current }) => current);
-      const pictures = await Promise.allSettled(tiles.map(({ el, coords }) => this.load(el, this._wrapCoords(coords))));
-      pictures.forEach(({ status, value, reason }, i) => {
-        if (status === 'fulfilled') this.paint(tiles[i].el, value);
-        else this.miss(tiles[i].el, reason);
-      });
-      return true;
+      do {
+        this.overtaken = false;
+        await this.drawAgain();
+      } while (this.overtaken);
     } finally {
       this.refreshing = false;
     }
+  },
+
+  async drawAgain() {
+    const tiles = Object.values(this._tiles ?? {}).filter(({ current }) => current);
+    const pictures = await Promise.allSettled(tiles.map(({ el, coords }) => this.load(el, this._wrapCoords(coords))));
+    pictures.forEach(({ status, value, reason }, i) => {
+      if (status === 'fulfilled') this.paint(tiles[i].el, value);
+      else this.miss(tiles[i].el, reason);
+    });
   },
 });

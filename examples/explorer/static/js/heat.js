@@ -34,10 +34,10 @@ async function redraw() {
   if (document.hidden) return;
   const begin = performance.now();
   const at = version;
-  const [done] = await Promise.all([layer.refresh(), scale()]);
+  await Promise.all([layer.refresh(), scale()]);
   last = performance.now();
   cost = last - begin;
-  if (done) drawn = at;
+  drawn = at;
   if (drawn !== version && !paused()) plan();
 }
 
