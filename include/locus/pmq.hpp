@@ -6,6 +6,7 @@
 #include <locus/pmq.h>
 #include <locus/status.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -111,7 +112,9 @@ public:
     /* The query for one call of the C interface; rethrow afterwards what the filter threw. */
     class asked {
     public:
-        explicit asked(const query &query) : plain_(query.plain_), filter_(query.filter_) {
+        /* What the filter throws goes to `elsewhere`, if that is given. */
+        explicit asked(const query &query, detail::thrown *elsewhere = nullptr)
+            : plain_(query.plain_), filter_(query.filter_), thrown_(elsewhere != nullptr ? *elsewhere : own_) {
             plain_.polygon = query.polygon_.get();
             if (filter_) {
                 plain_.filter = accepts;
@@ -131,7 +134,8 @@ public:
         }
         locus_pmq_query plain_;
         const callback<bool(const Record &)> &filter_;
-        detail::thrown thrown_;
+        detail::thrown own_;
+        detail::thrown &thrown_;
     };
 
 private:
@@ -242,6 +246,25 @@ public:
         answer(asked, code, result);
     }
 
+    /* Go on in the store's order behind the cursor, into memory of yours; returns how many records, 0 at the end. The
+     * room has to reach for the records of one key, see locus_pmq_read_page. */
+    std::size_t read_page(locus_pmq_cursor &cursor, span<Record> into, const query &what = {},
+                          status *result = nullptr) const {
+        std::size_t count = 0;
+        typename query::asked asked(what);
+        const locus_status code = locus_pmq_read_page(get(), asked.get(), &cursor, into.data(), into.size(), &count);
+        answer(asked, code, result);
+        return count;
+    }
+    /* Count by a field, LOCUS_FIELD_, or by what a lambda says of each record; the largest group first. */
+    std::vector<locus_pmq_group> groups(std::uint32_t field, const query &what = {}, status *result = nullptr) const {
+        return grouped(field, {}, what, result);
+    }
+    std::vector<locus_pmq_group> groups(const callback<std::uint64_t(const Record &)> &group, const query &what = {},
+                                        status *result = nullptr) const {
+        return grouped(LOCUS_FIELD_CALLER, group, what, result);
+    }
+
     /* The counts of a tile's bins, row by row from the north-west, 2^log2_bins a side; returns their sum. */
     std::uint64_t tile(span<std::uint32_t> bins, std::uint32_t zoom, std::uint32_t x, std::uint32_t y,
                        std::uint32_t log2_bins, const query &what = {}, status *result = nullptr) const {
@@ -257,6 +280,21 @@ public:
         /* The library refuses more than 2^8 bins a side. */
         std::vector<std::uint32_t> bins(std::size_t{1} << 2 * (log2_bins <= 8 ? log2_bins : 0));
         tile(bins, zoom, x, y, log2_bins, what, result);
+        return bins;
+    }
+
+    /* The same with each record counted as what a lambda says, a finite number. */
+    std::vector<double> weighted_tile(const callback<double(const Record &)> &weight, std::uint32_t zoom,
+                                      std::uint32_t x, std::uint32_t y, std::uint32_t log2_bins, const query &what = {},
+                                      status *result = nullptr) const {
+        std::vector<double> bins(std::size_t{1} << 2 * (log2_bins <= 8 ? log2_bins : 0));
+        typename query::asked asked(what);
+        record_call<double> call{weight, {}};
+        const locus_status code =
+            locus_pmq_weighted_tile(get(), zoom, x, y, log2_bins, asked.get(), record_call<double>::at, &call,
+                                    bins.data(), bins.size(), nullptr);
+        call.thrown.rethrow();
+        answer(asked, code, result);
         return bins;
     }
 
@@ -286,26 +324,28 @@ public:
     void check(status *result = nullptr) const { detail::settle(locus_pmq_check(get()), result); }
 
 private:
+    friend class alerts<Record>;
     struct callbacks {
         explicit callbacks(const pmq_options<Record> &options)
             : remove(options.remove), sink(options.sink), log(options.log) {}
         callback<bool(const Record &)> remove, sink;
         locus::log log;
-        detail::thrown thrown;
+        /* Shared with the objects that watch the store: their callbacks are called by its writer too. */
+        std::shared_ptr<detail::thrown> thrown = std::make_shared<detail::thrown>();
 
         static std::int32_t on_remove(const void *record, void *user) noexcept {
             auto &kept = *static_cast<callbacks *>(user);
-            return kept.thrown.guard(std::int32_t{-1},
-                                     [&] { return kept.remove(*static_cast<const Record *>(record)) ? 1 : 0; });
+            return kept.thrown->guard(std::int32_t{-1},
+                                      [&] { return kept.remove(*static_cast<const Record *>(record)) ? 1 : 0; });
         }
         static std::int32_t on_sink(const void *record, void *user) noexcept {
             auto &kept = *static_cast<callbacks *>(user);
-            return kept.thrown.guard(std::int32_t{1},
-                                     [&] { return kept.sink(*static_cast<const Record *>(record)) ? 0 : 1; });
+            return kept.thrown->guard(std::int32_t{1},
+                                      [&] { return kept.sink(*static_cast<const Record *>(record)) ? 0 : 1; });
         }
         static void on_log(std::int32_t level, const char *text, void *user) noexcept {
             auto &kept = *static_cast<callbacks *>(user);
-            kept.thrown.guard(0, [&] { return kept.log(level, text), 0; });
+            kept.thrown->guard(0, [&] { return kept.log(level, text), 0; });
         }
     };
     struct visit_call {
@@ -318,15 +358,44 @@ private:
         }
     };
 
+    /* A lambda that says something of each record; after it has thrown, the rest gets no answer of use. */
+    template <class Said>
+    struct record_call {
+        const callback<Said(const Record &)> &function;
+        detail::thrown thrown;
+        static Said at(const void *record, void *user) noexcept {
+            auto &call = *static_cast<record_call *>(user);
+            return call.thrown.guard(Said{}, [&] { return call.function(*static_cast<const Record *>(record)); });
+        }
+    };
+
     /* What the store's own callbacks threw comes out of the calls of its writer. */
     bool settle(locus_status code, status *result) {
         if (callbacks_ != nullptr)
-            callbacks_->thrown.rethrow();
+            callbacks_->thrown->rethrow();
         return detail::settle(code, result);
     }
     static void answer(typename query::asked &asked, locus_status code, status *result) {
         asked.rethrow();
         detail::settle(code, result);
+    }
+    std::vector<locus_pmq_group> grouped(std::uint32_t field, const callback<std::uint64_t(const Record &)> &group,
+                                         const query &what, status *result) const {
+        std::vector<locus_pmq_group> found(64);
+        std::size_t count = 0;
+        locus_status code = LOCUS_E_CAPACITY;
+        while (code == LOCUS_E_CAPACITY) {
+            found.resize(std::max(found.size(), count));
+            typename query::asked asked(what);
+            record_call<std::uint64_t> call{group, {}};
+            code = locus_pmq_groups(get(), asked.get(), field, group ? record_call<std::uint64_t>::at : nullptr, &call,
+                                    found.data(), found.size(), &count);
+            call.thrown.rethrow();
+            asked.rethrow();
+        }
+        found.resize(code == LOCUS_OK ? count : 0);
+        detail::settle(code, result);
+        return found;
     }
     template <class Ask>
     ranked<Record> best(std::size_t k, const query &what, status *result, Ask &&ask) const {

@@ -59,6 +59,35 @@ TEST(CppPmq, QueriesMatchAPlainList) {
     EXPECT_EQ(locus::pmq_key(0, 0), uint64_t{3} << 48);
 }
 
+TEST(CppPmq, PagesGroupsAndWeightedTiles) {
+    const auto records = some_records(1000, noon, 9);
+    locus::pmq<> store;
+    store.insert(records, noon + 1000);
+    locus_pmq_cursor cursor{};
+    std::vector<locus_point32> page(64);
+    std::vector<uint16_t> seen;
+    while (const size_t count = store.read_page(cursor, page))
+        for (size_t i = 0; i < count; ++i)
+            seen.push_back(page[i].spare);
+    std::vector<uint16_t> all;
+    for (const auto &record : store.read())
+        all.push_back(record.spare);
+    EXPECT_EQ(seen, all);
+    std::vector<uint64_t> counts(7);
+    double sum = 0;
+    for (const auto &record : records)
+        ++counts[record.device], sum += record.device;
+    for (const auto &group : store.groups(LOCUS_FIELD_DEVICE))
+        EXPECT_EQ(group.count, counts.at(group.value));
+    EXPECT_EQ(store.groups([](const locus_point32 &r) { return uint64_t(r.spare); }).size(), 1000u);
+    EXPECT_THROW(store.groups([](const locus_point32 &) -> uint64_t { throw 5; }), int);
+    EXPECT_THROW(store.groups(99), locus::error);
+    const auto bins = store.weighted_tile([](const locus_point32 &r) { return double(r.device); }, 0, 0, 0, 1);
+    ASSERT_EQ(bins.size(), 4u);
+    EXPECT_EQ(bins[0] + bins[1] + bins[2] + bins[3], sum);
+    EXPECT_THROW(store.weighted_tile([](const locus_point32 &) -> double { throw 5; }, 0, 0, 0, 1), int);
+}
+
 TEST(CppPmq, TheNearestAndTheBest) {
     const auto records = some_records(500, noon, 2);
     locus::pmq<> store;
