@@ -166,6 +166,9 @@ struct ranked {
     std::vector<double> values;
 };
 
+template <class Record>
+class alerts;
+
 template <class Record = locus_point32>
 class pmq {
 public:

@@ -29,6 +29,10 @@ def _on_fence(fence: int, record: Any, user: Any) -> int:
     return kept["fence"](fence, kept["record"].at(record).copy()) is False
 
 
+def _span(span: Span | None) -> int | None:
+    return None if span is None else microseconds(span)
+
+
 class Alerts:
     """Watches what is inserted into a store, from now on until `close`.
 
@@ -62,11 +66,10 @@ class Alerts:
         self._callbacks = Callbacks(alert=alert, fence=fence, shown=OneRecord(ALERT), record=OneRecord(store.dtype))
         # The filters of fences, also of removed ones: an insert of another thread may still ask them.
         self._asked: list[Asked] = []
-        spans = {"half_life": half_life, "history": history, "cool_down": cool_down}
         options = filled_options(
             "locus_alerts_options", lib.locus_alerts_options_init, zoom_from=zoom_from, zoom_to=zoom_to, minimum=minimum,
-            factor=factor, rate=rate, share=share, max_bytes=max_bytes,
-            **{name: None if span is None else microseconds(span) for name, span in spans.items()},
+            factor=factor, rate=rate, share=share, max_bytes=max_bytes, half_life=_span(half_life), history=_span(history),
+            cool_down=_span(cool_down),
         )  # fmt: skip
         for name, function, given in (("alert", _on_alert, alert), ("fence", _on_fence, fence)):
             if given is not None:

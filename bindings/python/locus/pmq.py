@@ -458,7 +458,7 @@ class Store(_Reader):
         """After a change: the sink gets what left, then what a callback raised, or the status, is raised."""
         if self._sink is not None and self._callbacks.raised is None:
             self._sink.flush()
-        for watcher in self._watchers:
+        for watcher in list(self._watchers):
             for callbacks_of_it in watcher._raised():
                 callbacks_of_it.settle(status)
         self._callbacks.settle(status)

@@ -57,7 +57,7 @@ def head(path, folder):
     axes[1].set_title("cells of 60 seeds in the whole head")
     shown = axes[2].imshow(distances, cmap="viridis", **draw)
     axes[2].set_title("distance to the nearest seed")
-    figure.colorbar(shown, ax=axes[2], label="distance (mm of soft tissue)")
+    figure.colorbar(shown, ax=axes[2], label="distance (mm of soft tissue)", shrink=0.8)
     for axis in axes:
         axis.set_xlabel("mm")
     figure.savefig(folder / "diagram.png", dpi=110)
@@ -78,14 +78,14 @@ def head(path, folder):
     print(f"\n{weights}: rows sum to {sums.min():.4f} .. {sums.max():.4f}")
     strongest = np.argsort(dense.sum(axis=(0, 1)))[::-1][:3]
     figure, axes = plt.subplots(1, 3, figsize=(13, 4.6), constrained_layout=True)
-    draw["extent"] = tuple(edge * 2 * size for edge, size in zip((20, 108, 108, 20), (spacing[0],) * 2 + (spacing[1],) * 2))
+    draw["extent"] = (40 * spacing[0], 216 * spacing[0], (256 - 216) * spacing[1], (256 - 40) * spacing[1])
     for axis, seed in zip(axes, strongest):
         empty = dense.sum(axis=-1) == 0
         shown = axis.imshow(np.where(empty, np.nan, dense[:, :, seed]), cmap="magma", vmin=0, vmax=1, **draw)
         axis.set_facecolor("0.8")
         axis.set_title(f"weight of seed {weights.seed_ids[seed]}")
         axis.set_xlabel("mm")
-    figure.colorbar(shown, ax=axes[-1], label="Sibson weight")
+    figure.colorbar(shown, ax=axes[-1], label="Sibson weight", shrink=0.8)
     figure.savefig(folder / "weights.png", dpi=110)
 
 
@@ -112,7 +112,7 @@ def stream(folder):
 
     # 3. A heat map straight from the store: one tile of 256 x 256 bins, and a closer one.
     figure, axes = plt.subplots(1, 2, figsize=(11.5, 5.4), constrained_layout=True)
-    for axis, (zoom, x, y), title in zip(axes, ((4, 8, 5), (7, 64, 43)), ("western Europe", "around Brussels and Paris")):
+    for axis, (zoom, x, y), title in zip(axes, ((4, 8, 5), (7, 64, 44)), ("western Europe", "around Paris")):
         bins = store.tile(zoom, x, y, 8).astype(float)
         shown = axis.imshow(np.where(bins > 0, bins, np.nan), cmap="inferno", norm=LogNorm(1, max(bins.max(), 10)))
         axis.set_facecolor("#101018")
