@@ -22,11 +22,11 @@ from interface import interface_of  # noqa: E402
 ENUMS = {
     "LOG": "LogLevel", "ALERT": "AlertKind", "WEIGHT": "WeightRule", "MATERIAL": "Material", "WORD": "Word", "BACKEND": "Backend", "SIMD": "Simd",
     "ENGINE": "Engine", "PLACE": "Metric", "METHOD": "Method", "RECORD": "Record", "LAYOUT": "Layout", "INDEX": "Index",
-    "FUTURE": "Future", "FIELD": "Field", "RECORDS": "RecordsFormat", "TIME": "TimeUnit", "BAD_LINES": "BadLines", "VOXEL": "Voxel",
+    "FUTURE": "Future", "FIELD": "Field", "SYNC": "Sync", "RECORDS": "RecordsFormat", "TIME": "TimeUnit", "BAD_LINES": "BadLines", "VOXEL": "Voxel",
     "VOLUME": "VolumeFormat",
 }  # fmt: skip
 # Structs that calls fill in: frozen dataclasses without the size and the spare fields.
-FILLED = re.compile(r"locus_(\w+_(?:info|stats|change))$")
+FILLED = re.compile(r"locus_(\w+_(?:info|stats|recovery))$")
 HEADER = "# Made from the public headers by bindings/python/generate.py: run that, do not edit.\n"
 PYTHON_TYPES = {"double": "float", "float": "float"}
 

@@ -13,6 +13,7 @@
 #include <locus/graph.hpp>
 #include <locus/pmq.hpp>
 #include <locus/status.hpp>
+#include <locus/storage.hpp>
 #include <locus/weights.hpp>
 
 #endif

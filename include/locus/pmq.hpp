@@ -166,6 +166,9 @@ struct ranked {
     std::vector<double> values;
 };
 
+namespace detail {
+struct storage;
+}
 template <class Record>
 class alerts;
 
@@ -174,17 +177,9 @@ class pmq {
 public:
     using query = locus::query<Record>;
 
-    explicit pmq(const pmq_options<Record> &options = {}, status *result = nullptr)
-        : callbacks_(std::make_unique<callbacks>(options)) {
-        locus_pmq_options plain = options;
-        plain.remove = options.remove ? callbacks::on_remove : nullptr;
-        plain.sink = options.sink ? callbacks::on_sink : nullptr;
-        plain.log = options.log ? callbacks::on_log : nullptr;
-        plain.remove_user = plain.sink_user = plain.log_user = callbacks_.get();
-        locus_pmq *made = nullptr;
-        const locus_status code = locus_pmq_create(&plain, &made);
-        handle_.reset(made);
-        detail::settle(code, result);
+    explicit pmq(const pmq_options<Record> &options = {}, status *result = nullptr) {
+        make(options, result,
+             [](const locus_pmq_options &plain, locus_pmq **made) { return locus_pmq_create(&plain, made); });
     }
 
     explicit operator bool() const noexcept { return handle_ != nullptr; }
@@ -328,6 +323,7 @@ public:
 
 private:
     friend class alerts<Record>;
+    friend struct detail::storage;
     struct callbacks {
         explicit callbacks(const pmq_options<Record> &options)
             : remove(options.remove), sink(options.sink), log(options.log) {}
@@ -371,6 +367,21 @@ private:
             return call.thrown.guard(Said{}, [&] { return call.function(*static_cast<const Record *>(record)); });
         }
     };
+
+    explicit pmq(std::nullptr_t) noexcept {}
+    template <class Create>
+    void make(const pmq_options<Record> &options, status *result, Create &&create) {
+        callbacks_ = std::make_unique<callbacks>(options);
+        locus_pmq_options plain = options;
+        plain.remove = options.remove ? callbacks::on_remove : nullptr;
+        plain.sink = options.sink ? callbacks::on_sink : nullptr;
+        plain.log = options.log ? callbacks::on_log : nullptr;
+        plain.remove_user = plain.sink_user = plain.log_user = callbacks_.get();
+        locus_pmq *made = nullptr;
+        const locus_status code = create(plain, &made);
+        handle_.reset(made);
+        settle(code, result);
+    }
 
     /* What the store's own callbacks threw comes out of the calls of its writer. */
     bool settle(locus_status code, status *result) {

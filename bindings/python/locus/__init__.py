@@ -7,7 +7,17 @@ on 3-D volumes; and the PMQ (`Store`, `Snapshot`, `Query`), the live window of a
 
 from . import constants
 from ._library import LIBRARY_PATH, version
-from ._structs import AlertsStats, DiagramStats, GraphInfo, PmqStats, RecordsStats, VolumeInfo
+from ._structs import (
+    AlertsStats,
+    DiagramStats,
+    GraphInfo,
+    PmqFileInfo,
+    PmqLogStats,
+    PmqRecovery,
+    PmqStats,
+    RecordsStats,
+    VolumeInfo,
+)
 from .alerts import ALERT, Alerts
 from .constants import (
     EARTH_RADIUS,
@@ -27,6 +37,7 @@ from .constants import (
     Record,
     RecordsFormat,
     Simd,
+    Sync,
     TimeUnit,
     VolumeFormat,
     Voxel,
@@ -52,17 +63,19 @@ from .errors import (
     UnsupportedError,
 )
 from .graph import Graph, VoxelBox
-from .pmq import GROUP, POINT32, TEXT156, Box, Circle, Query, Ranked, Snapshot, Store, pmq_key
+from .pmq import GROUP, POINT32, TEXT156, Box, Circle, Query, Ranked, Snapshot, Store, file_info, pmq_key
 from .records import Records
 from .volume import Raw, Volume, read_volume, read_volume_info, write_volume
 from .weights import Rows, Weights
 
 __all__ = [
-    "constants", "LIBRARY_PATH", "version", "ALERT", "AlertKind", "Alerts", "AlertsStats", "DiagramStats", "GraphInfo", "PmqStats", "RecordsStats", "VolumeInfo", "EARTH_RADIUS",
-    "NO_SEED", "BadLines", "Backend", "Engine", "Field", "Future", "Index", "Layout", "LogLevel", "Material", "Method", "Metric", "Record",
-    "RecordsFormat", "Simd", "TimeUnit", "VolumeFormat", "Voxel", "WeightRule", "Word", "CELL_PAIR", "GROUP", "SEED", "Change", "Diagram",
-    "ArgumentError", "BusyError", "CapacityError", "DeviceError", "Error", "FormatError", "InternalError", "IoError", "LibraryError",
-    "OutOfMemoryError", "RangeError", "StaleError", "StateError", "StoppedError", "UnsupportedError", "Graph", "VoxelBox", "POINT32",
-    "TEXT156", "Box", "Circle", "Query", "Ranked", "Snapshot", "Store", "pmq_key", "Records", "Raw", "Volume", "read_volume",
-    "read_volume_info", "write_volume", "Rows", "Weights",
+    "ALERT", "AlertKind", "Alerts", "AlertsStats", "ArgumentError", "Backend", "BadLines", "Box", "BusyError",
+    "CapacityError", "CELL_PAIR", "Change", "Circle", "constants", "DeviceError", "Diagram", "DiagramStats", "EARTH_RADIUS",
+    "Engine", "Error", "Field", "file_info", "FormatError", "Future", "Graph", "GraphInfo", "GROUP", "Index", "InternalError",
+    "IoError", "Layout", "LIBRARY_PATH", "LibraryError", "LogLevel", "Material", "Method", "Metric", "NO_SEED",
+    "OutOfMemoryError", "pmq_key", "PmqFileInfo", "PmqLogStats", "PmqRecovery", "PmqStats", "POINT32", "Query", "RangeError",
+    "Ranked", "Raw", "read_volume", "read_volume_info", "Record", "Records", "RecordsFormat", "RecordsStats", "Rows", "SEED",
+    "Simd", "Snapshot", "StaleError", "StateError", "StoppedError", "Store", "Sync", "TEXT156", "TimeUnit",
+    "UnsupportedError", "version", "Volume", "VolumeFormat", "VolumeInfo", "Voxel", "VoxelBox", "WeightRule", "Weights",
+    "Word", "write_volume",
 ]  # fmt: skip

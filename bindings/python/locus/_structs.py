@@ -79,6 +79,46 @@ class DiagramStats:
 
 
 @dataclass(frozen=True)
+class PmqFileInfo:
+    """locus_pmq_file_info."""
+
+    version: int
+    record: int
+    records: int
+    bytes: int
+    now: int
+
+
+@dataclass(frozen=True)
+class PmqRecovery:
+    """locus_pmq_recovery."""
+
+    created: int
+    skipped: int
+    number: int
+    saved: int
+    changes: int
+    inserted: int
+    departed: int
+    records: int
+    cut: int
+    now: int
+
+
+@dataclass(frozen=True)
+class PmqLogStats:
+    """locus_pmq_log_stats."""
+
+    number: int
+    bytes: int
+    unsynced: int
+    changes: int
+    syncs: int
+    attached: int
+    stopped: int
+
+
+@dataclass(frozen=True)
 class RecordsStats:
     """locus_records_stats."""
 

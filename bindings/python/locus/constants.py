@@ -150,6 +150,14 @@ class Metric(IntEnum):
     UNIFORM = 1
 
 
+class Sync(IntEnum):
+    """LOCUS_SYNC_."""
+
+    NONE = 0
+    BATCH = 1
+    INTERVAL = 2
+
+
 class Method(IntEnum):
     """LOCUS_METHOD_."""
 

@@ -1,6 +1,7 @@
 """The PMQ: the live window of a stream of geo-located records, in memory, sorted along the Z-curve."""
 
 import datetime
+import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -10,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _callbacks as callbacks
-from ._callbacks import Callbacks, Log, c_callback
+from ._callbacks import Callbacks, Log, Progress, c_callback, progress_call
 from ._ffi import ffi
 from ._library import check, lib
-from ._structs import PmqStats
+from ._structs import PmqFileInfo, PmqLogStats, PmqRecovery, PmqStats
 from ._values import Array, dtype_of, empty_struct, enum_value, filled, filled_options, microseconds, pointer, readable, writable
-from .constants import E_BUSY, E_CAPACITY, REGION_BOX, REGION_CIRCLE, REGION_POLYGON, Field, Future, Index, Layout, Record
+from .constants import E_BUSY, E_CAPACITY, REGION_BOX, REGION_CIRCLE, REGION_POLYGON, Field, Future, Index, Layout, Record, Sync
 from .errors import error_for
 
 #: A record of 32 bytes. Times are microseconds since 1970-01-01 UTC: ``records["time"].view("datetime64[us]")`` is no copy.
@@ -27,6 +28,7 @@ DTYPES = {Record.POINT32: POINT32, Record.TEXT156: TEXT156}
 
 Time = Union[int, "np.integer[Any]", np.datetime64, datetime.datetime]
 Span = Union[int, "np.integer[Any]", np.timedelta64, datetime.timedelta]
+Path = Union[str, "os.PathLike[str]"]
 Predicate = Callable[[Any], bool]
 
 
@@ -374,11 +376,26 @@ class _Reader:
             k, query, lambda asked, *into: lib.locus_pmq_nearest(self._handle, latitude, longitude, asked, k, *into)
         )
 
+    def save(self, path: Path, progress: Progress | None = None) -> None:
+        """Save the records as a file, which replaces an older one whole or not at all."""
+        call = progress_call(progress)
+        moment = ffi.NULL if self._snapshot is None else self._snapshot
+        call.settle(lib.locus_pmq_save(self._handle, moment, os.fsencode(path), callbacks.on_progress, call.handle))
+
     def _best(self, k: int, query: Query | None, ask: Callable[..., int]) -> Ranked:
         asked, count = self._asked(query), ffi.new("size_t *")
         records, values = np.empty(max(k, 0), self._dtype), np.empty(max(k, 0), np.float64)
         asked.settle(ask(asked.c, pointer(records), pointer(values, "double *"), count))
         return Ranked(records[: count[0]], values[: count[0]])
+
+
+def _log_options(
+    sync: Sync | str, redeliver: bool, interval: Span | None, sync_bytes: int | None, keep: int | None, repair: bool
+) -> Any:
+    return filled_options(
+        "locus_pmq_log_options", lib.locus_pmq_log_options_init, sync=enum_value(Sync, sync), redeliver=redeliver,
+        sync_interval=None if interval is None else microseconds(interval), sync_bytes=sync_bytes, keep=keep, repair=repair,
+    )  # fmt: skip
 
 
 class Snapshot(_Reader):
@@ -428,6 +445,7 @@ class Store(_Reader):
         future: Future | str = Future.REFUSE, remove: Predicate | None = None, sink: Callable[[Array], object] | None = None,
         log: Log | None = None, segment_slots: int | None = None, rho_leaf: float | None = None, tau_leaf: float | None = None,
         rho_root: float | None = None, tau_root: float | None = None, snapshot_bytes: int | None = None,
+        _create: Callable[[Any, Any], None] | None = None,
     ) -> None:  # fmt: skip
         kind = enum_value(Record, record)
         self._dtype = DTYPES[Record(kind)]
@@ -448,8 +466,100 @@ class Store(_Reader):
         self._watchers: list[Any] = []
         self._watching = threading.RLock()
         made = ffi.new("locus_pmq **")
-        check(lib.locus_pmq_create(options, made))
+        if _create is not None:
+            _create(options, made)
+        else:
+            check(lib.locus_pmq_create(options, made))
         self._handle = ffi.gc(made[0], lib.locus_pmq_destroy)
+        self._recovery: PmqRecovery | None = None
+
+    @classmethod
+    def load(cls, path: Path, *, progress: Progress | None = None, **options: Any) -> "Store":
+        """Make a store from a saved file.
+
+        Parameters
+        ----------
+        path : path-like
+        progress : callable, optional
+            ``progress(fraction)``; returning False cancels.
+        **options
+            Those of `Store`; by default the file's record layout.
+        """
+        options.setdefault("record", file_info(path).record)
+        call = progress_call(progress)
+
+        def create(plain: Any, made: Any) -> None:
+            call.settle(lib.locus_pmq_load(os.fsencode(path), plain, callbacks.on_progress, call.handle, made))
+
+        return cls(**options, _create=create)
+
+    @classmethod
+    def open(
+        cls, folder: Path, *, sync: Sync | str = Sync.BATCH, redeliver: bool = True, sync_interval: Span | None = None,
+        sync_bytes: int | None = None, keep: int | None = None, repair: bool = False, progress: Progress | None = None,
+        **options: Any,
+    ) -> "Store":  # fmt: skip
+        """Recover the store of a folder, or make a new one, and log every change before it is acknowledged.
+
+        Parameters
+        ----------
+        folder : path-like
+        sync : Sync or str
+            When the log is flushed to the disk.
+        redeliver : bool
+            Hand what left since the last save to the sink again.
+        sync_interval, sync_bytes, keep, repair : optional
+            As in locus_pmq_log_options.
+        progress : callable, optional
+            ``progress(fraction)``; returning False cancels.
+        **options
+            Those of `Store`.
+
+        Returns
+        -------
+        Store
+            Its `recovery` tells what was found.
+        """
+        logging = _log_options(sync, redeliver, sync_interval, sync_bytes, keep, repair)
+        call, recovery = progress_call(progress), empty_struct("locus_pmq_recovery")
+
+        def create(plain: Any, made: Any) -> None:
+            name = os.fsencode(folder)
+            call.settle(lib.locus_pmq_open(name, plain, logging, callbacks.on_progress, call.handle, recovery, made))
+
+        store = cls(**options, _create=create)
+        store._recovery = filled(PmqRecovery, recovery)
+        return store
+
+    @property
+    def recovery(self) -> PmqRecovery | None:
+        """What `open` found; None for other stores."""
+        return self._recovery
+
+    def attach(
+        self, folder: Path, *, sync: Sync | str = Sync.BATCH, redeliver: bool = True, sync_interval: Span | None = None,
+        sync_bytes: int | None = None, keep: int | None = None, repair: bool = False, progress: Progress | None = None,
+    ) -> None:  # fmt: skip
+        """Give a store that has no log a folder that has no store; the parameters are those of `open`."""
+        logging = _log_options(sync, redeliver, sync_interval, sync_bytes, keep, repair)
+        call = progress_call(progress)
+        call.settle(lib.locus_pmq_attach(self._handle, os.fsencode(folder), logging, callbacks.on_progress, call.handle))
+
+    def checkpoint(self, progress: Progress | None = None) -> None:
+        """Save the present moment into the store's folder and begin a new log."""
+        call = progress_call(progress)
+        call.settle(lib.locus_pmq_checkpoint(self._handle, callbacks.on_progress, call.handle))
+
+    def sync(self) -> None:
+        """Flush the log to the disk."""
+        check(lib.locus_pmq_sync(self._handle))
+
+    @property
+    def log_stats(self) -> PmqLogStats:
+        """The log's figures; zeros without one."""
+        stats = empty_struct("locus_pmq_log_stats")
+        check(lib.locus_pmq_get_log_stats(self._handle, stats))
+        return filled(PmqLogStats, stats)
 
     def __repr__(self) -> str:
         return f"<locus.Store of {self.count()} records>"
@@ -512,6 +622,13 @@ class Store(_Reader):
     def check(self) -> None:
         """Verify every invariant of the store."""
         check(lib.locus_pmq_check(self._handle))
+
+
+def file_info(path: Path) -> PmqFileInfo:
+    """What a saved file says of itself."""
+    info = empty_struct("locus_pmq_file_info")
+    check(lib.locus_pmq_get_file_info(os.fsencode(path), info))
+    return filled(PmqFileInfo, info)
 
 
 def pmq_key(latitude: float, longitude: float) -> int:
