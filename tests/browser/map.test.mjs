@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { Explorer } from './lib/explorer.mjs';
 import { close, open, picture, until } from './lib/page.mjs';
-import { countPixels, hot, screen, tiles } from './lib/pixels.mjs';
+import { countPixels, hot, lit, screen, tiles } from './lib/pixels.mjs';
 
 after(close);
 const DEMO = ['--demo', '--rate', '400', '--horizon', '1800'];
@@ -89,5 +89,5 @@ test('the map goes down to streets', async (t) => {
   await server.ingest([{ time: Date.now() * 1000, lat: 48.8566, lon: 2.3522, text: 'here' }]);
   const page = await open(t, server.url, { hash: '#view=19/48.8566/2.3522' });
   await until(page, drawn);
-  assert.ok(countPixels(await screen(page, { x: 540, y: 300, width: 200, height: 200 }), hot) > 8);
+  assert.ok(countPixels(await screen(page, { x: 540, y: 300, width: 200, height: 200 }), lit) > 30);
 });

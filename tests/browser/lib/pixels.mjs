@@ -21,6 +21,9 @@ export function countPixels({ data }, accept) {
 // inferno's colours from few to many: far more red than the blue-grey of the base map.
 export const hot = (r, g, b) => r > 90 && r > b + 20 && r > 1.3 * g;
 
+// Any of them, the darkest too.
+export const lit = (r, g, b) => Math.max(r, b) > g + 35;
+
 // How many pixels of the tiles are drawn, and a sum that tells pictures apart.
 export const tiles = (page) => page.evaluate(() => {
   const result = { drawn: 0, sum: 0 };

@@ -16,7 +16,7 @@ let last = 0; // when a drawing ended
 let cost = 0; // milliseconds that it took
 
 // Closer up records lie further apart: larger squares keep them visible.
-const grain = (zoom) => (zoom <= 4 ? 256 : zoom <= 8 ? 128 : 64);
+const grain = (zoom) => (zoom <= 4 ? 256 : zoom <= 8 ? 128 : zoom <= 13 ? 64 : 32);
 
 const look = (zoom) => ({ map: state.colours, scale: state.scale, bins: state.bins || grain(zoom), blur: state.blur, ...range() });
 

@@ -23,7 +23,7 @@ function drawMarks() {
   const { stops } = shown;
   const marks = [0, 2, 4, 6, 8].map((i) => stops[Math.round(i * (stops.length - 1) / 8)]);
   const spans = marks.map(({ at, value }) => {
-    const span = element('span', {}, short(value));
+    const span = element('span', {}, short(Number(value.toPrecision(2))));
     span.style.left = `${100 * at}%`;
     return span;
   });
