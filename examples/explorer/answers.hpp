@@ -49,11 +49,12 @@ public:
     Reply topk(const Request &request);
     Reply nearest(const Request &request);
     Reply aggregate(const Request &request);
+    Json head() const { return head(live_.version()); } // version and now
 
 private:
     struct Look; // how a tile looks: what its parameters say
 
-    Json head(uint64_t version) const; // version and now
+    Json head(uint64_t version) const;
     Reference reference(const Look &look, uint32_t zoom, const locus_pmq_query &query, uint64_t version);
 
     const Live &live_;

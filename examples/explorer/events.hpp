@@ -11,7 +11,7 @@ namespace explorer {
 
 class Events {
 public:
-    Events(const Live &live, const Statistics &statistics, Counters &counters, size_t most);
+    Events(const Live &live, const Statistics &statistics, AlertLog &alerts, Counters &counters, size_t most);
     ~Events() { stop(); }
     Events(const Events &) = delete;
     Events &operator=(const Events &) = delete;
@@ -33,6 +33,7 @@ private:
 
     const Live &live_;
     const Statistics &statistics_;
+    AlertLog &alerts_;
     Counters &counters_;
     size_t most_;
     std::mutex mutex_; // of what follows

@@ -22,10 +22,12 @@ void Pace::begin(int64_t first) {
 
 void Pace::end() {
     if (kind_ == Kind::replay)
-        ended_.store(now());
+        ended_.store(due());
 }
 
-int64_t Pace::now() const {
+int64_t Pace::now() const { return kind_ == Kind::wall && !caught_up_.load() ? INT64_MIN : due(); }
+
+int64_t Pace::due() const {
     if (kind_ == Kind::wall)
         return wall_clock();
     const int64_t first = first_.load(std::memory_order_acquire);
@@ -38,6 +40,8 @@ int64_t Pace::now() const {
 Feed::Feed(std::string name, Open open, Pace &pace, int64_t horizon)
     : open_(std::move(open)), pace_(pace), stream_clock_(horizon) {
     state_ = {std::move(name), open_ ? "filling" : "live", -1, {}};
+    if (!open_)
+        pace_.caught_up();
 }
 
 Feed::~Feed() { stop(); }
@@ -116,7 +120,7 @@ bool Feed::paced(const Batch &chunk, Live &live) {
     const int64_t latest = stream_clock_.advance(chunk);
     Batch due;
     for (size_t next = 0; next < chunk.size() && !stopping_.load();) {
-        const int64_t now = pace_.now();
+        const int64_t now = pace_.due();
         due.clear();
         for (; next < chunk.size() && (chunk[next].time <= now || chunk[next].time > latest); ++next)
             due.push_back(chunk[next]);
@@ -126,6 +130,7 @@ bool Feed::paced(const Batch &chunk, Live &live) {
             break;
         if (!live_) {
             live_ = true;
+            pace_.caught_up();
             const std::lock_guard lock(mutex_);
             state_.state = "live";
         }

@@ -25,7 +25,11 @@ public:
     Kind kind() const { return kind_; }
     void begin(int64_t first); // of a replay
     void end();                // the replay's clock stands still from now on
-    int64_t now() const;       // INT64_MIN: the records tell
+    int64_t due() const;       // records up to this time may come; INT64_MIN: not known
+    // What time it is for the window; INT64_MIN: the records tell. So it is until a stream with the wall's clock has
+    // caught up with it: to the window its past is then no different from a present.
+    int64_t now() const;
+    void caught_up() { caught_up_.store(true); }
 
 private:
     Kind kind_;
@@ -33,6 +37,7 @@ private:
     std::atomic<int64_t> first_{INT64_MIN};
     std::atomic<int64_t> begun_{0}; // wall clock
     std::atomic<int64_t> ended_{INT64_MAX};
+    std::atomic<bool> caught_up_{false};
 };
 
 struct FeedState {

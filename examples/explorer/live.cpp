@@ -43,6 +43,7 @@ Live::Live(const LiveSettings &settings) : settings_(settings), stream_clock_(se
     locus_pmq *store = nullptr;
     check(locus_pmq_create(&options, &store));
     store_.reset(store);
+    settings_.watch(store);
     writer_ = std::thread([this] { run(); });
 }
 

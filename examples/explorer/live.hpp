@@ -30,6 +30,7 @@ struct LiveSettings {
     uint64_t max_bytes = 0; // or LOCUS_NO_LIMIT
     // What time it is for the window; INT64_MIN: the latest time of the records. Called by the writer.
     std::function<int64_t()> clock;
+    std::function<void(locus_pmq *)> watch; // called with the store before anything is inserted
 };
 
 class Live {

@@ -46,13 +46,14 @@ class Program {
 public:
     explicit Program(const Options &options)
         : options_(options), pace_(pace_kind(), options.speed < 0 ? 1 : options.speed),
+          world_(demo::load_world(find_folder(options.places, "examples/data", "places"))),
           assets_(find_folder(options.pages, "examples/explorer/static", "explorer")), live_(live_settings()),
           feed_(source_name(), source(), pace_, horizon()), answers_(live_, options.max_results),
-          statistics_(live_, feed_, counters_, statistics_settings()),
-          events_(live_, statistics_, counters_, options.listeners),
+          statistics_(live_, feed_, alerts_, counters_, statistics_settings()),
+          events_(live_, statistics_, alerts_, counters_, options.listeners),
           ingest_(live_, token_of(options), loopback(options.bind)),
-          routes_({loopback(options.bind), options.allow_origin}, answers_, events_, statistics_, ingest_, assets_,
-                  counters_),
+          routes_({loopback(options.bind), options.allow_origin}, answers_, events_, alerts_, statistics_, ingest_,
+                  assets_, counters_),
           server_(
               server_settings(), [this](const Request &request) { return routes_.refusal(request); },
               [this](const Request &request) { return routes_.answer(request); }) {}
@@ -90,7 +91,7 @@ private:
     LiveSettings live_settings() {
         const bool limited = options_.memory > 0;
         return {horizon(), limited ? static_cast<uint64_t>(options_.memory * megabyte) : LOCUS_NO_LIMIT,
-                [this] { return pace_.now(); }};
+                [this] { return pace_.now(); }, [this](locus_pmq *store) { alerts_.watch(store); }};
     }
 
     std::string source_name() const {
@@ -106,7 +107,6 @@ private:
             return nullptr;
         if (replays())
             return [this] { return std::make_unique<demo::FileSource>(options_.input, reader_options(options_)); };
-        world_ = demo::load_world(find_folder(options_.places, "examples/data", "places"));
         const double past = options_.prefill >= 0 ? options_.prefill : options_.horizon;
         return [this, past] {
             const int64_t start = wall_clock() - static_cast<int64_t>(past * second);
@@ -115,9 +115,8 @@ private:
     }
 
     StatisticsSettings statistics_settings() const {
-        const bool demo = !replays() && !options_.empty;
         return {options_.horizon, static_cast<uint64_t>(options_.memory * megabyte), options_.max_results,
-                demo ? "places: GeoNames, CC BY 4.0" : ""};
+                "places: GeoNames, CC BY 4.0"};
     }
 
     ServerSettings server_settings() const {
@@ -134,6 +133,7 @@ private:
     Pace pace_;
     demo::World world_;
     Assets assets_;
+    AlertLog alerts_{world_}; // before live_: it watches to the end
     Counters counters_;
     Live live_;
     Feed feed_;

@@ -3,6 +3,7 @@
 
 #include "explorer/arguments.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 
@@ -50,10 +51,10 @@ bool our_name(const std::string &host) {
 
 } // namespace
 
-Routes::Routes(RouteSettings settings, Answers &answers, Events &events, const Statistics &statistics, Ingest &ingest,
-               const Assets &assets, Counters &counters)
-    : settings_(std::move(settings)), answers_(answers), events_(events), statistics_(statistics), ingest_(ingest),
-      assets_(assets), counters_(counters) {}
+Routes::Routes(RouteSettings settings, Answers &answers, Events &events, const AlertLog &alerts,
+               const Statistics &statistics, Ingest &ingest, const Assets &assets, Counters &counters)
+    : settings_(std::move(settings)), answers_(answers), events_(events), alerts_(alerts), statistics_(statistics),
+      ingest_(ingest), assets_(assets), counters_(counters) {}
 
 std::optional<Reply> Routes::refusal(const Request &request) const {
     try {
@@ -131,6 +132,7 @@ Reply Routes::get(const Request &request) {
         {"/topk", [](Routes &self, const Request &request) { return self.answers_.topk(request); }},
         {"/nearest", [](Routes &self, const Request &request) { return self.answers_.nearest(request); }},
         {"/aggregate", [](Routes &self, const Request &request) { return self.answers_.aggregate(request); }},
+        {"/alerts", [](Routes &self, const Request &request) { return self.alerts(request); }},
         {"/events", [](Routes &self, const Request &request) { return self.events_.listen(request); }},
         {"/stats", [](Routes &self, const Request &) { return json_reply(self.statistics_.stats()); }},
         {"/info", [](Routes &self, const Request &) { return json_reply(self.statistics_.info()); }},
@@ -141,6 +143,19 @@ Reply Routes::get(const Request &request) {
     if (found == handlers.end())
         throw Failure(404, shown(request.path) + ": no such path");
     return found->second(*this, request);
+}
+
+Reply Routes::alerts(const Request &request) const {
+    Arguments arguments(request);
+    const auto since = arguments.integer("since", 0, INT64_MAX).value_or(0);
+    const auto limit = arguments.integer("limit", 1, 1000).value_or(100);
+    arguments.done();
+    auto alerts = alerts_.since(static_cast<uint64_t>(since), static_cast<size_t>(limit));
+    std::reverse(alerts.begin(), alerts.end());
+    Json json = answers_.head();
+    json["last"] = alerts_.last();
+    json["alerts"] = std::move(alerts);
+    return json_reply(json);
 }
 
 void Routes::add_headers(const Request &request, Reply &reply) const {

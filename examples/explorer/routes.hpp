@@ -14,8 +14,8 @@ struct RouteSettings {
 
 class Routes {
 public:
-    Routes(RouteSettings settings, Answers &answers, Events &events, const Statistics &statistics, Ingest &ingest,
-           const Assets &assets, Counters &counters);
+    Routes(RouteSettings settings, Answers &answers, Events &events, const AlertLog &alerts,
+           const Statistics &statistics, Ingest &ingest, const Assets &assets, Counters &counters);
 
     // Before the body is read: nothing, or why it need not be.
     std::optional<Reply> refusal(const Request &request) const;
@@ -25,11 +25,13 @@ public:
 private:
     Reply dispatch(const Request &request);
     Reply get(const Request &request);
+    Reply alerts(const Request &request) const;
     void add_headers(const Request &request, Reply &reply) const;
 
     RouteSettings settings_;
     Answers &answers_;
     Events &events_;
+    const AlertLog &alerts_;
     const Statistics &statistics_;
     Ingest &ingest_;
     const Assets &assets_;

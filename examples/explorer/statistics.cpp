@@ -73,8 +73,9 @@ private:
 
 } // namespace
 
-Statistics::Statistics(const Live &live, const Feed &feed, const Counters &counters, StatisticsSettings settings)
-    : live_(live), feed_(feed), counters_(counters), settings_(std::move(settings)) {}
+Statistics::Statistics(const Live &live, const Feed &feed, const AlertLog &alerts, const Counters &counters,
+                       StatisticsSettings settings)
+    : live_(live), feed_(feed), alerts_(alerts), counters_(counters), settings_(std::move(settings)) {}
 
 Json Statistics::stats() const {
     const uint64_t version = live_.version();
@@ -103,7 +104,7 @@ Json Statistics::stats() const {
             {"insert_cpu", latency_json(live_.cpu().minute())},
             {"listeners", counters_.listeners.load()},
             {"requests", counters_.requests.load()},
-            {"alerts", 0},
+            {"alerts", alerts_.last()},
             {"cold", nullptr},
             {"source",
              {{"name", feed.name},
@@ -120,7 +121,7 @@ Json Statistics::info() const {
             {"maps", map_names},
             {"scales", scale_names},
             {"max_zoom", 25},
-            {"alerts", false},
+            {"alerts", true},
             {"cold", false},
             {"source", feed_.state().name},
             {"attribution", settings_.attribution}};

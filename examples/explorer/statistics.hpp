@@ -1,6 +1,7 @@
 // What the server tells of itself: /stats, /info, /metrics, /healthz.
 #pragma once
 
+#include "explorer/alert_log.hpp"
 #include "explorer/answers.hpp"
 #include "explorer/feed.hpp"
 
@@ -25,7 +26,8 @@ struct StatisticsSettings {
 
 class Statistics {
 public:
-    Statistics(const Live &live, const Feed &feed, const Counters &counters, StatisticsSettings settings);
+    Statistics(const Live &live, const Feed &feed, const AlertLog &alerts, const Counters &counters,
+               StatisticsSettings settings);
 
     Json stats() const;
     Json info() const;
@@ -35,6 +37,7 @@ public:
 private:
     const Live &live_;
     const Feed &feed_;
+    const AlertLog &alerts_;
     const Counters &counters_;
     StatisticsSettings settings_;
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();

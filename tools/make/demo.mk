@@ -39,8 +39,14 @@ $(eval $(call example,explorer,-lcpp-httplib))
 $(OBJECTS_example_explorer): | $(call needs,explorer)
 HTTPLIB_OBJECTS := $(patsubst %,$(OUT)/examples/explorer/%.cpp.o,server connection)
 $(HTTPLIB_OBJECTS): private CPPFLAGS_ALL += $(addprefix -DCPPHTTPLIB_,$(addsuffix _SUPPORT,OPENSSL ZLIB BROTLI))
-.PHONY: explorer explorer-program
+.PHONY: explorer explorer-program test-explorer check-explorer
 explorer-program: $(EXAMPLE_explorer)
+test-explorer: $(EXAMPLE_explorer) | $(call needs,test)
+	$(STAGE) $(FLAVOUR)$@ /usr/bin/python3 tests/examples/explorer.py --quick $(abspath $<)
+test: test-explorer
+check-explorer: $(EXAMPLE_explorer) | $(call needs,test)
+	$(STAGE) $(FLAVOUR)$@ /usr/bin/python3 tests/examples/explorer.py $(abspath $<)
+check: check-explorer
 explorer: $(EXAMPLE_explorer) ## build the explorer and serve the demo stream at http://127.0.0.1:8080; EXPLORER_FLAGS: see its --help
 	@$(EXAMPLE_explorer) $(EXPLORER_FLAGS)
 
