@@ -36,13 +36,14 @@ void Store::attach(Folder &&folder, const locus_pmq_log_options &options, Progre
 void Store::start_log(Folder &&folder, const locus_pmq_log_options &options, const Journal::Position &position,
                       Progress &progress) {
     const std::shared_ptr<const View> moment = layout_->view();
-    const std::string path = folder.saved(position.number);
+    const std::string path = folder.saved(position.number), log = folder.log(position.number);
     save(*moment, path, progress);
     try {
         auto journal = std::make_unique<Journal>(std::move(folder), format_, options, position);
         journal->carry(moment->moment(), departures_.waiting());
         journal_ = std::move(journal);
     } catch (...) {
+        ::unlink(log.c_str());
         ::unlink(path.c_str());
         throw;
     }

@@ -2,7 +2,6 @@
 #include "pmq/storage/saved_file.hpp"
 
 #include "core/checksum.hpp"
-#include "core/zcurve.hpp"
 
 #include <algorithm>
 
@@ -130,7 +129,7 @@ void SavedFile::read_block(uint64_t block, std::vector<std::byte> &bytes) const 
         fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset, ": the checksum of block ", block, " does not match");
 }
 
-uint64_t SavedFile::checked_key(Bytes record, uint64_t offset) const {
+void SavedFile::check_record(Bytes record, uint64_t offset) const {
     const double latitude = format_.latitude(record), longitude = format_.longitude(record);
     if (!(latitude >= -90 && latitude <= 90))
         fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset, ": latitude is ", latitude, ", not within -90..90");
@@ -139,24 +138,41 @@ uint64_t SavedFile::checked_key(Bytes record, uint64_t offset) const {
     if (format_.time(record) > header_.now)
         fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset, ": time is ", format_.time(record), ", after the clock, ",
              header_.now);
-    return key_of(latitude, longitude);
+}
+
+// Check a block's records and find their keys.
+void SavedFile::find_keys(const std::vector<std::byte> &bytes, uint64_t offset, Block &block) const {
+    block.latitudes.resize(block.count);
+    block.longitudes.resize(block.count);
+    block.keys.resize(block.count);
+    for (size_t i = 0; i < block.count; ++i) {
+        const uint64_t at = sum_bytes + i * format_.size;
+        const Bytes record = bytes.data() + at;
+        check_record(record, offset + at);
+        block.latitudes[i] = format_.latitude(record);
+        block.longitudes[i] = format_.longitude(record);
+    }
+    find_keys_(block.latitudes.data(), block.longitudes.data(), block.keys.data(), block.count);
 }
 
 void SavedFile::for_each(Progress &progress, FunctionRef<void(uint64_t key, Bytes record)> visit) const {
     file_.expect_sequence();
     std::vector<std::byte> bytes(sum_bytes + std::min(header_.block_records, header_.records) * header_.record);
+    Block found;
     uint64_t before = 0, done = 0;
     for (uint64_t block = 0; block < blocks(header_); ++block) {
+        const uint64_t offset = block_offset(header_, block);
         read_block(block, bytes);
-        const uint64_t end = std::min(header_.records, done + header_.block_records);
-        for (uint64_t at = sum_bytes; done < end; ++done, at += header_.record) {
-            const Bytes record = bytes.data() + at;
-            const uint64_t offset = block_offset(header_, block) + at, key = checked_key(record, offset);
-            if (key < before)
-                fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset, ": a record out of the order of keys");
-            before = key;
-            visit(key, record);
+        found.count = std::min(header_.records - done, header_.block_records);
+        find_keys(bytes, offset, found);
+        for (size_t i = 0; i < found.count; ++i) {
+            const uint64_t at = sum_bytes + i * format_.size;
+            if (found.keys[i] < before)
+                fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset + at, ": a record out of the order of keys");
+            before = found.keys[i];
+            visit(before, bytes.data() + at);
         }
+        done += found.count;
         progress.report(static_cast<double>(done) / static_cast<double>(header_.records));
     }
 }

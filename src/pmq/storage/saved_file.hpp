@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/file.hpp"
+#include "core/mercator.hpp"
 #include "core/progress.hpp"
 #include "pmq/layout/layout.hpp"
 
@@ -40,10 +41,18 @@ public:
     void for_each(Progress &progress, FunctionRef<void(uint64_t key, Bytes record)> visit) const;
 
 private:
+    // The places of a block's records.
+    struct Block {
+        size_t count = 0;
+        std::vector<double> latitudes, longitudes;
+        std::vector<uint64_t> keys;
+    };
     void check_header();
     void read_block(uint64_t block, std::vector<std::byte> &bytes) const;
-    uint64_t checked_key(Bytes record, uint64_t offset) const;
+    void check_record(Bytes record, uint64_t offset) const;
+    void find_keys(const std::vector<std::byte> &bytes, uint64_t offset, Block &block) const;
 
+    const KeysOf find_keys_ = keys_of(simd_best());
     InputFile file_;
     SavedHeader header_{};
     RecordFormat format_{};

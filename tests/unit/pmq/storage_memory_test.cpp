@@ -21,12 +21,17 @@ protected:
     // Call until no allocation fails; before that, nothing may have happened.
     void insist(const std::function<locus_status()> &call, const std::function<bool()> &unchanged) {
         for (size_t after = 0;; ++after) {
-            FailingMemory failing(after);
-            const locus_status status = call();
+            locus_status status = LOCUS_OK;
+            bool failed = false;
+            {
+                FailingMemory failing(after);
+                status = call();
+                failed = failing.failed();
+            }
             if (status == LOCUS_OK)
                 return;
             ASSERT_EQ(status, LOCUS_E_MEMORY) << locus_last_error();
-            ASSERT_TRUE(failing.failed());
+            ASSERT_TRUE(failed) << locus_last_error();
             ASSERT_TRUE(unchanged()) << "allocation " << after;
             ++failures;
         }
