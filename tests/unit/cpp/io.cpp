@@ -65,7 +65,8 @@ TEST_F(CppIo, RecordsComeOut) {
     const auto posts = reader.next(10);
     ASSERT_EQ(posts.size(), 2u);
     EXPECT_STREQ(posts[0].text, "Bonjour");
-    EXPECT_EQ(posts[1].time, int64_t{1700000001} * 1000000);
+    const int64_t time = posts[1].time; // a field of a packed struct: no reference may bind to it
+    EXPECT_EQ(time, int64_t{1700000001} * 1000000);
     EXPECT_EQ(bad, (std::vector<uint64_t>{3}));
     EXPECT_TRUE(reader.next(10).empty());
     EXPECT_EQ(reader.stats().bad, 1u);
