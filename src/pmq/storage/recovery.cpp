@@ -30,7 +30,7 @@ class Log {
 public:
     Log(const Folder &folder, uint64_t saved, const std::vector<uint64_t> &numbers, const RecordFormat &format,
         const locus_pmq_log_options &options)
-        : folder_(folder), saved_(saved), format_(format), options_(options) {
+        : saved_(saved), options_(options) {
         for (const uint64_t number : numbers) {
             if (number < saved)
                 continue;
@@ -142,9 +142,7 @@ private:
             cut_ += segments_[i].size();
     }
 
-    const Folder &folder_;
     uint64_t saved_;
-    const RecordFormat &format_;
     const locus_pmq_log_options &options_;
     std::vector<Segment> segments_;
     std::vector<Step> steps_;
