@@ -19,13 +19,19 @@ typedef struct locus_diagram locus_diagram;
  * UINT64_MAX. */
 #define LOCUS_NO_SEED 0xFFFFFFFFu
 
+/* On a graph of the CUDA backend the bricks, relax and compact engines run on the GPU, heap and bucket on the CPU. */
 #define LOCUS_ENGINE_AUTO 0   /* LOCUS_ENGINE_BRICKS */
 #define LOCUS_ENGINE_HEAP 1   /* Dijkstra with a binary heap: the oracle every other engine is tested against */
 #define LOCUS_ENGINE_BUCKET 2 /* Dijkstra with buckets (Dial 1969), each as wide as the smallest weight, 64 a level */
 #define LOCUS_ENGINE_RELAX 3  /* the thesis' base algorithm, sections 2.4.1 to 2.4.3: relax all active voxels */
 /* Blocks of 14 x 8 x 8 voxels in SIMD registers, on several threads. The diagram keeps 9.2 bytes per voxel (13.8 with
- * 64-bit words) beside its result, for a grid rounded up to whole blocks, so that updates follow what changes. */
+ * 64-bit words) beside its result, for a grid rounded up to whole blocks, so that updates follow what changes. On a GPU
+ * blocks of 8 x 8 x 8 voxels, and 8 bytes per voxel (12 with 64-bit words, 4 more once edges were cut), which stay in
+ * its memory from one solve or update to the next. */
 #define LOCUS_ENGINE_BRICKS 4
+/* The relax engine with coarse stream compaction (thesis section 2.4.5): only grains of voxels that hold active ones are
+ * worked on; CUDA only. */
+#define LOCUS_ENGINE_COMPACT 5
 
 /* A seed: a place with an id of the caller's that names it in every result. */
 typedef struct locus_seed {
@@ -40,6 +46,11 @@ typedef struct locus_diagram_options {
     uint32_t engine;       /* LOCUS_ENGINE_; default LOCUS_ENGINE_AUTO */
     uint32_t record_trace; /* 1: keep the active voxels per iteration for locus_diagram_trace; default 0 */
     double max_distance;   /* voxels farther than this stay unreached, >= 0; default +infinity: no cut-off */
+    uint32_t grain[3];     /* for LOCUS_ENGINE_COMPACT: a grain's voxels in x, y, z, each 1..1024; default 8, 4, 4 */
+    uint32_t reserved0;    /* 0 */
+    void *stream;          /* for the CUDA backend: the caller's cudaStream_t that all work is put on; calls still return
+                              when their result is there. It must outlive the diagram, and belong to the CUDA device
+                              that is the calling thread's. Default NULL: a stream of the diagram's own */
 } locus_diagram_options;
 
 /* What the latest solve did. */
@@ -58,6 +69,8 @@ typedef struct locus_diagram_stats {
     uint64_t bytes;        /* memory held by the diagram */
     uint32_t engine;       /* the engine that ran */
     uint32_t threads;      /* threads it used */
+    uint32_t backend;      /* the backend that ran, LOCUS_BACKEND_CPU or LOCUS_BACKEND_CUDA */
+    uint32_t reserved0;    /* 0 */
 } locus_diagram_stats;
 
 /* Two cells that touch: some voxel of the one is a graph neighbour of some voxel of the other, with an edge between. */

@@ -15,13 +15,13 @@ namespace {
 constexpr size_t first_options_size = 24;
 constexpr size_t first_place_size = 48;
 constexpr size_t first_stats_size = 96;
-static_assert(sizeof(locus_diagram_options) == first_options_size,
-              "append only; then keep first_options_size a number");
+static_assert(sizeof(locus_diagram_options) == 48, "append only");
 static_assert(sizeof(locus_place_options) == first_place_size, "append only; then keep first_place_size a number");
-static_assert(sizeof(locus_diagram_stats) == first_stats_size, "append only; then keep first_stats_size a number");
+static_assert(sizeof(locus_diagram_stats) == 104, "append only");
 
 locus_diagram_options defaults() {
-    return {sizeof(locus_diagram_options), LOCUS_ENGINE_AUTO, 0, std::numeric_limits<double>::infinity()};
+    return {sizeof(locus_diagram_options), LOCUS_ENGINE_AUTO, 0, std::numeric_limits<double>::infinity(), {8, 4, 4}, 0,
+            nullptr};
 }
 
 locus_place_options place_defaults() {
@@ -59,6 +59,7 @@ locus_status locus_diagram_create(locus_graph *graph, const locus_diagram_option
         need(diagram, "diagram");
         *diagram = nullptr;
         const locus_diagram_options whole = read_options(options, defaults(), first_options_size);
+        require(whole.reserved0 == 0, "options->reserved0 is ", whole.reserved0, ", not 0");
         *diagram = new locus_diagram{std::make_shared<graph::Diagram>(need(graph, "graph").graph, whole)};
     });
 }

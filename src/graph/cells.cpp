@@ -128,6 +128,7 @@ locus_diagram_stats Diagram::stats() const {
     stats.bytes += engine_->bytes() + sizeof *this + (seeds_.capacity() + solved_seeds_.capacity()) * sizeof(Seed) +
                    position_of_slot_.capacity() * sizeof(uint32_t) + report_.trace.capacity() * sizeof(uint64_t);
     stats.engine = engine_->kind();
+    stats.backend = engine_->backend();
     stats.threads = report_.threads;
     return stats;
 }

@@ -12,8 +12,11 @@
 namespace locus::graph {
 
 Diagram::Diagram(std::shared_ptr<const Graph> graph, const locus_diagram_options &options)
-    : graph_(std::move(graph)), options_(options), engine_(make_engine(options.engine)) {
+    : graph_(std::move(graph)), options_(options), engine_(make_engine(*graph_, options)) {
     require(options.max_distance >= 0, "options->max_distance is ", options.max_distance, ", not a distance");
+    for (size_t axis = 0; axis < 3 && options.engine == LOCUS_ENGINE_COMPACT; ++axis)
+        require(options.grain[axis] >= 1 && options.grain[axis] <= 1024, "options->grain[", axis, "] is ",
+                options.grain[axis], ", outside 1..1024");
     require(options.record_trace <= 1, "options->record_trace is ", options.record_trace, ", not 0 or 1");
 }
 

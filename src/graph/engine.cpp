@@ -17,6 +17,8 @@ std::unique_ptr<Engine> make_engine(uint32_t kind) {
         return make_bucket_engine();
     case LOCUS_ENGINE_RELAX:
         return make_relax_engine();
+    case LOCUS_ENGINE_COMPACT:
+        fail(LOCUS_E_UNSUPPORTED, "options->engine is LOCUS_ENGINE_COMPACT, which only the CUDA backend has");
     default:
         fail(LOCUS_E_ARGUMENT, "options->engine is ", kind, ", not one of LOCUS_ENGINE_");
     }

@@ -65,6 +65,7 @@ class Engine {
 public:
     virtual ~Engine() = default;
     virtual uint32_t kind() const = 0; // LOCUS_ENGINE_
+    virtual uint32_t backend() const { return LOCUS_BACKEND_CPU; }
     // Whatever is thrown (out of memory, stopped, a caller's weight out of range), `words` is as before then.
     virtual Report solve(const Problem &problem, Words &words, Progress &progress) = 0;
     // The same words, where `words` are still those of this engine's latest solve or update, of the same graph; engines
@@ -74,8 +75,10 @@ public:
     virtual size_t bytes() const { return 0; }
 };
 
-// The engine for a LOCUS_ENGINE_ constant; throws LOCUS_E_ARGUMENT for others.
+// The CPU's engine for a LOCUS_ENGINE_ constant; throws LOCUS_E_ARGUMENT for others.
 std::unique_ptr<Engine> make_engine(uint32_t kind);
+// The engine for a diagram of a graph, on the graph's backend.
+std::unique_ptr<Engine> make_engine(const Graph &graph, const locus_diagram_options &options);
 
 // The distance of the nearest voxel left unreached, or UINT64_MAX where no edge leads from a reached to an unreached
 // one: whether words that came out of a solve missed anything, by the edges across their frontier.

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/team.hpp"
+#include "graph/device/device.hpp"
 #include "graph/scaling.hpp"
 
 #include <algorithm>
@@ -45,6 +46,25 @@ uint32_t label_bits(const locus_graph_options &options) {
     return static_cast<uint32_t>(std::bit_width((left ? default_max_seeds_32 : options.max_seeds) - 1));
 }
 
+// The backend that the options mean. Throws LOCUS_E_UNSUPPORTED or LOCUS_E_DEVICE where it was asked for and is not
+// there.
+uint32_t choose_backend(const locus_graph_options &options) {
+    if (options.backend == LOCUS_BACKEND_CPU)
+        return LOCUS_BACKEND_CPU;
+    const bool forced = options.backend == LOCUS_BACKEND_CUDA;
+    if (options.weight_rule == LOCUS_WEIGHT_CALLER) {
+        if (forced)
+            fail(LOCUS_E_UNSUPPORTED, "options->backend is LOCUS_BACKEND_CUDA, which has no LOCUS_WEIGHT_CALLER");
+        return LOCUS_BACKEND_CPU;
+    }
+    const device::Found &found = device::find();
+    if (found.table != nullptr)
+        return LOCUS_BACKEND_CUDA;
+    if (forced)
+        fail(found.status, "options->backend is LOCUS_BACKEND_CUDA: ", found.why);
+    return LOCUS_BACKEND_CPU;
+}
+
 } // namespace
 
 void Graph::Range::add(double compliance) {
@@ -59,10 +79,9 @@ void Graph::Range::add(double compliance) {
 Graph::Graph(const locus_graph_options &options, const float *material)
     : options_(options),
       grid_(options.dims, options.spacing, options.connectivity), operand_{options.weight_rule, options.material},
-      threads_(options.threads == 0 ? default_threads() : options.threads) {
+      threads_(options.threads == 0 ? default_threads() : options.threads), backend_(LOCUS_BACKEND_CPU) {
     check_options(options);
-    if (options.backend == LOCUS_BACKEND_CUDA)
-        fail(LOCUS_E_UNSUPPORTED, "options->backend is LOCUS_BACKEND_CUDA: this library has no CUDA backend");
+    backend_ = choose_backend(options);
     simd_ = simd_choose(options.simd);
     const float nothing = std::numeric_limits<float>::quiet_NaN();
     materials_.assign(grid_.voxels(), nothing);
@@ -300,7 +319,7 @@ locus_graph_info Graph::info() const {
     info.smallest_step = static_cast<double>(smallest_weight()) / scale_;
     info.overflow_free = longest_path_ <= layout_.max_exact() ? 1 : 0;
     info.threads = threads_;
-    info.backend = LOCUS_BACKEND_CPU;
+    info.backend = backend_;
     info.simd = static_cast<uint32_t>(simd_);
     return info;
 }

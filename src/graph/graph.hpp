@@ -48,6 +48,14 @@ public:
     double scale() const { return scale_; }
     uint32_t threads() const { return threads_; }
     Simd simd() const { return simd_; }
+    // LOCUS_BACKEND_CPU or LOCUS_BACKEND_CUDA, and whether it was asked for by name.
+    uint32_t backend() const { return backend_; }
+    bool backend_forced() const { return options_.backend != LOCUS_BACKEND_AUTO; }
+    // Tell the caller's log.
+    void log(int32_t level, const char *text) const {
+        if (options_.log != nullptr)
+            options_.log(level, text, options_.log_user);
+    }
     uint32_t rule() const { return operand_.rule; }
     const Operand &operand() const { return operand_; }
     const Weights &weights() const { return weights_; }
@@ -126,6 +134,7 @@ private:
     double tolerance_ = 0; // the relative rounding error that edits may come to
     uint32_t threads_;
     Simd simd_ = Simd::scalar;
+    uint32_t backend_;
     Range range_; // of everything the graph holds or held, and of what was declared
     Weights weights_;
     std::unique_ptr<const InversePower<float>> power32_;

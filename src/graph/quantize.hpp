@@ -93,34 +93,60 @@ struct MeanStiffness {
 // one table, that of m by linear interpolation in another (relative error below p (p + 1) / 8 * 2^-24 plus two
 // roundings).
 template <typename R>
-class InversePower {
-public:
-    explicit InversePower(double p) : p_(p), mantissa_(size_t{1} << bits_ | 1), exponent_(2 * max_exponent) {
-        for (size_t i = 0; i < mantissa_.size(); ++i)
-            mantissa_[i] = static_cast<R>(std::pow(1.0 + std::ldexp(static_cast<double>(i), -bits_), -p));
-        for (size_t e = 0; e < exponent_.size(); ++e)
-            exponent_[e] = static_cast<R>(std::exp2(-p * (static_cast<double>(e) - max_exponent)));
-    }
+struct PowerTables {
+    static constexpr int bits = 12;
+    static constexpr int max_exponent = sizeof(R) == 4 ? 160 : 1100; // beyond every finite x
 
-    double exponent() const { return p_; }
+    const R *mantissa; // 2^bits + 1 of them
+    const R *exponent; // 2 * max_exponent
 
-    R operator()(R x) const {
+    LOCUS_HD R operator()(R x) const {
+        using Bits = std::conditional_t<sizeof(R) == 4, uint32_t, uint64_t>;
+        constexpr unsigned digits = std::numeric_limits<R>::digits - 1;
+        constexpr Bits ones = (Bits{1} << (sizeof(R) == 4 ? 8 : 11)) - 1;
         if (!(x < std::numeric_limits<R>::infinity()))
             return R(0);
         if (!(x > R(0)))
             return std::numeric_limits<R>::infinity();
-        int e = 0;
-        const R m = std::frexp(x, &e) * R(2); // in [1, 2), x = m * 2^(e - 1)
-        const R place = (m - R(1)) * static_cast<R>(size_t{1} << bits_);
-        const auto i = static_cast<size_t>(place);
-        const R slope = mantissa_[i + 1] - mantissa_[i];
+        int e = -static_cast<int>(ones / 2);
+        if (x < std::numeric_limits<R>::min()) { // a denormal number
+            x *= static_cast<R>(Bits{1} << digits);
+            e -= static_cast<int>(digits);
+        }
+        Bits raw;
+        memcpy(&raw, &x, sizeof raw);
+        e += static_cast<int>(raw >> digits & ones);
+        raw = (raw & ((Bits{1} << digits) - 1)) | (ones / 2) << digits;
+        R m; // in [1, 2), x = m * 2^e
+        memcpy(&m, &raw, sizeof m);
+        const R place = (m - R(1)) * R(1 << bits);
+        const auto i = static_cast<uint32_t>(place);
+        const R slope = mantissa[i + 1] - mantissa[i];
         const R rise = slope * (place - static_cast<R>(i));
-        return (mantissa_[i] + rise) * exponent_[static_cast<size_t>(e - 1 + max_exponent)];
+        return (mantissa[i] + rise) * exponent[e + max_exponent];
+    }
+};
+
+template <typename R>
+class InversePower {
+public:
+    explicit InversePower(double p)
+        : p_(p), mantissa_((size_t{1} << Tables::bits) + 1), exponent_(2 * Tables::max_exponent) {
+        for (size_t i = 0; i < mantissa_.size(); ++i)
+            mantissa_[i] = static_cast<R>(std::pow(1.0 + std::ldexp(static_cast<double>(i), -Tables::bits), -p));
+        for (size_t e = 0; e < exponent_.size(); ++e)
+            exponent_[e] = static_cast<R>(std::exp2(-p * (static_cast<double>(e) - Tables::max_exponent)));
     }
 
+    double exponent() const { return p_; }
+    PowerTables<R> tables() const { return {mantissa_.data(), exponent_.data()}; }
+    size_t mantissas() const { return mantissa_.size(); }
+    size_t exponents() const { return exponent_.size(); }
+
+    R operator()(R x) const { return tables()(x); }
+
 private:
-    static constexpr int bits_ = 12;
-    static constexpr int max_exponent = sizeof(R) == 4 ? 160 : 1100; // beyond every finite x, denormals included
+    using Tables = PowerTables<R>;
     double p_;
     std::vector<R> mantissa_;
     std::vector<R> exponent_;

@@ -18,6 +18,7 @@ public:
 
     const Graph &graph() const { return graph_; }
     const Grid &grid() const { return graph_.grid(); }
+    const Words &words() const { return words_; }
 
     bool reached(uint64_t voxel) const { return layout_.reached(word(voxel)); }
     uint64_t distance(uint64_t voxel) const { return layout_.distance(word(voxel)); }

@@ -25,4 +25,8 @@ struct NaturalJob {
 // Piles that hold the rows. Throws LOCUS_E_MEMORY where `bytes` do not suffice for one thread, LOCUS_E_STOPPED.
 std::vector<RowPile> natural_rows(const NaturalJob &job, Progress &progress);
 
+// The same on the backend of the field's graph: Sibson's weights have kernels, and where the GPU was not asked for by
+// name and fails, the CPU goes on.
+std::vector<RowPile> natural_rows_on_backend(const NaturalJob &job, Progress &progress);
+
 } // namespace locus::graph

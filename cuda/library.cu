@@ -1,0 +1,188 @@
+// The table that liblocus uses: a device, its memory and its kernels.
+#include "cuda/queue.cuh"
+
+#include <new>
+
+namespace locus::cuda {
+namespace {
+
+using device::Kernel;
+using device::Machine;
+using device::Table;
+
+// The CUDA device of a thread belongs to the program that calls us: it is as before after each call.
+class OnDevice {
+public:
+    explicit OnDevice(int device) {
+        if (cudaGetDevice(&before_) != cudaSuccess)
+            before_ = -1;
+        error_ = before_ == device ? cudaSuccess : cudaSetDevice(device);
+    }
+    ~OnDevice() {
+        if (before_ >= 0)
+            cudaSetDevice(before_);
+    }
+    OnDevice(const OnDevice &) = delete;
+    OnDevice &operator=(const OnDevice &) = delete;
+    cudaError_t error() const { return error_; }
+
+private:
+    int before_ = -1;
+    cudaError_t error_;
+};
+
+int32_t describe(int device, Machine *machine, Message *why) {
+    cudaDeviceProp properties;
+    LOCUS_CUDA(cudaGetDeviceProperties(&properties, device));
+    std::snprintf(machine->name, sizeof machine->name, "%s", properties.name);
+    machine->memory = properties.totalGlobalMem;
+    machine->multiprocessors = static_cast<uint32_t>(properties.multiProcessorCount);
+    machine->compute = static_cast<uint32_t>(10 * properties.major + properties.minor);
+    if (machine->compute < 80) {
+        std::snprintf(why->text, sizeof why->text, "%s has compute capability %d.%d: 8.0 is the least", properties.name,
+                      properties.major, properties.minor);
+        return LOCUS_E_UNSUPPORTED;
+    }
+    return LOCUS_OK;
+}
+
+void close(Queue *queue) {
+    if (queue == nullptr)
+        return;
+    const OnDevice here(queue->device);
+    cudaStreamSynchronize(queue->stream);
+    cudaFree(queue->scratch);
+    if (queue->own_stream)
+        cudaStreamDestroy(queue->stream);
+    delete queue;
+}
+
+// The device that is the calling thread's now.
+int32_t start(Queue &queue, Machine *machine, Message *why) {
+    int devices = 0;
+    LOCUS_CUDA(cudaGetDeviceCount(&devices));
+    if (devices == 0)
+        return report(cudaErrorNoDevice, "cudaGetDeviceCount", why);
+    LOCUS_CUDA(cudaGetDevice(&queue.device));
+    const int32_t status = describe(queue.device, machine, why);
+    if (status != LOCUS_OK)
+        return status;
+    queue.multiprocessors = static_cast<int>(machine->multiprocessors);
+    LOCUS_CUDA(cudaStreamCreateWithFlags(&queue.stream, cudaStreamNonBlocking));
+    queue.own_stream = true;
+    return LOCUS_OK;
+}
+
+int32_t open(Queue **queue, Machine *machine, Message *why) {
+    *queue = nullptr;
+    Queue *made = new (std::nothrow) Queue;
+    if (made == nullptr) {
+        std::snprintf(why->text, sizeof why->text, "the host has no more memory");
+        return LOCUS_E_MEMORY;
+    }
+    const int32_t status = start(*made, machine, why);
+    if (status != LOCUS_OK)
+        close(made);
+    else
+        *queue = made;
+    return status;
+}
+
+int32_t use_stream(Queue *queue, void *stream, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    LOCUS_CUDA(cudaStreamSynchronize(queue->stream));
+    if (queue->own_stream)
+        LOCUS_CUDA(cudaStreamDestroy(queue->stream));
+    queue->own_stream = false;
+    queue->stream = static_cast<cudaStream_t>(stream);
+    if (stream == nullptr) {
+        LOCUS_CUDA(cudaStreamCreateWithFlags(&queue->stream, cudaStreamNonBlocking));
+        queue->own_stream = true;
+    }
+    return LOCUS_OK;
+}
+
+int32_t allocate(Queue *queue, uint64_t bytes, void **memory, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    *memory = nullptr;
+    const cudaError_t error = cudaMalloc(memory, bytes);
+    if (error == cudaErrorMemoryAllocation) {
+        cudaGetLastError();
+        size_t left = 0, all = 0;
+        cudaMemGetInfo(&left, &all);
+        std::snprintf(why->text, sizeof why->text, "the GPU has %llu of %llu bytes left, and %llu are needed",
+                      static_cast<unsigned long long>(left), static_cast<unsigned long long>(all),
+                      static_cast<unsigned long long>(bytes));
+        return LOCUS_E_MEMORY;
+    }
+    return report(error, "cudaMalloc", why);
+}
+
+// cudaFree waits for the work that uses the memory.
+void release(Queue *queue, void *memory) {
+    const OnDevice here(queue->device);
+    cudaFree(memory);
+    cudaGetLastError();
+}
+
+int32_t upload(Queue *queue, void *to, const void *from, uint64_t bytes, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    LOCUS_CUDA(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, queue->stream));
+    LOCUS_CUDA(cudaStreamSynchronize(queue->stream));
+    return LOCUS_OK;
+}
+
+int32_t download(Queue *queue, void *to, const void *from, uint64_t bytes, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    LOCUS_CUDA(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, queue->stream));
+    LOCUS_CUDA(cudaStreamSynchronize(queue->stream));
+    return LOCUS_OK;
+}
+
+int32_t run(Queue *queue, const Launch *launch, uint64_t *resident, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    switch (launch->kernel) {
+    case Kernel::lower:
+        return run_lower(*queue, *launch, why, resident);
+    case Kernel::raise:
+        return run_raise(*queue, *launch, why, resident);
+    case Kernel::relax:
+        return run_relax(*queue, *launch, why, resident);
+    case Kernel::sibson:
+        return run_sibson(*queue, *launch, why, resident);
+    default:
+        return run_plain(*queue, *launch, why, resident);
+    }
+}
+
+int32_t launch(Queue *queue, const Launch *launched, Message *why) { return run(queue, launched, nullptr, why); }
+
+int32_t resident(Queue *queue, const Launch *launched, uint64_t *blocks, Message *why) {
+    return run(queue, launched, blocks, why);
+}
+
+int32_t compact(Queue *queue, const uint8_t *flags, uint64_t count, uint64_t *list, uint64_t *listed, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    return cuda::compact(*queue, flags, count, list, listed, why);
+}
+
+int32_t finish(Queue *queue, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    LOCUS_CUDA(cudaStreamSynchronize(queue->stream));
+    return LOCUS_OK;
+}
+
+constexpr Table table{sizeof(Table), device::kInterface, LOCUS_VERSION, open,     close,    use_stream, allocate, release,
+                      upload,        download,           launch,        resident, compact,  finish};
+
+} // namespace
+} // namespace locus::cuda
+
+const locus::device::Table *LOCUS_DEVICE_ENTRY(void) noexcept { return &locus::cuda::table; }

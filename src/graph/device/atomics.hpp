@@ -1,0 +1,86 @@
+// Memory that several threads of a device work on, for kernel bodies: on a GPU its atomic instructions, on the host
+// those of C++. All are relaxed: what one kernel writes is read by the next, or by the same one as a hint that may be
+// stale; within a block barriers order what they must.
+#pragma once
+
+#include "core/word.hpp"
+
+#include <cstdint>
+
+#ifndef __CUDA_ARCH__
+#include <atomic>
+#endif
+
+namespace locus::device {
+
+#ifdef __CUDA_ARCH__
+// uint64_t is another type than the one CUDA's functions are declared for.
+template <typename T>
+using Native = std::conditional_t<sizeof(T) == 8, unsigned long long, unsigned int>;
+
+template <typename T>
+__device__ inline Native<T> *native(T *at) {
+    return reinterpret_cast<Native<T> *>(at);
+}
+#endif
+
+// Lower *at to `value`; returns what was there.
+template <typename T>
+LOCUS_HD inline T atomic_min(T *at, T value) {
+#ifdef __CUDA_ARCH__
+    return static_cast<T>(atomicMin(native(at), static_cast<Native<T>>(value)));
+#else
+    std::atomic_ref<T> there(*at);
+    T old = there.load(std::memory_order_relaxed);
+    while (value < old && !there.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
+    }
+    return old;
+#endif
+}
+
+template <typename T>
+LOCUS_HD inline T atomic_add(T *at, T value) {
+#ifdef __CUDA_ARCH__
+    return static_cast<T>(atomicAdd(native(at), static_cast<Native<T>>(value)));
+#else
+    return std::atomic_ref<T>(*at).fetch_add(value, std::memory_order_relaxed);
+#endif
+}
+
+template <typename T>
+LOCUS_HD inline T atomic_or(T *at, T bits) {
+#ifdef __CUDA_ARCH__
+    return static_cast<T>(atomicOr(native(at), static_cast<Native<T>>(bits)));
+#else
+    return std::atomic_ref<T>(*at).fetch_or(bits, std::memory_order_relaxed);
+#endif
+}
+
+template <typename T>
+LOCUS_HD inline T atomic_exchange(T *at, T value) {
+#ifdef __CUDA_ARCH__
+    return static_cast<T>(atomicExch(native(at), static_cast<Native<T>>(value)));
+#else
+    return std::atomic_ref<T>(*at).exchange(value, std::memory_order_relaxed);
+#endif
+}
+
+// A load or store of memory that others write meanwhile: whole, and not from a cache of one multiprocessor alone.
+template <typename T>
+LOCUS_HD inline T load_shared(const T *at) {
+#ifdef __CUDA_ARCH__
+    return *static_cast<const volatile T *>(at);
+#else
+    return std::atomic_ref<T>(*const_cast<T *>(at)).load(std::memory_order_relaxed);
+#endif
+}
+template <typename T>
+LOCUS_HD inline void store_shared(T *at, T value) {
+#ifdef __CUDA_ARCH__
+    *static_cast<volatile T *>(at) = value;
+#else
+    std::atomic_ref<T>(*at).store(value, std::memory_order_relaxed);
+#endif
+}
+
+} // namespace locus::device

@@ -1,0 +1,151 @@
+// A device to run kernels on, with its memory. Every failure becomes an Error: LOCUS_E_MEMORY where the device has no
+// more memory, LOCUS_E_DEVICE with the text of the driver otherwise.
+#pragma once
+
+#include "core/error.hpp"
+#include "graph/device/table.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace locus::device {
+
+// The table of the library that runs kernels, or why there is none.
+struct Found {
+    const Table *table = nullptr;
+    locus_status status = LOCUS_OK;
+    std::string why;
+    Machine machine{};
+};
+
+// Looks once in the life of the process for a driver, liblocus_cuda.so and a GPU.
+const Found &find();
+
+// Whether an error says that a device cannot do what was asked of it, though another backend may.
+inline bool is_devices_own(const Error &error) {
+    return error.status() == LOCUS_E_DEVICE || error.status() == LOCUS_E_MEMORY ||
+           error.status() == LOCUS_E_UNSUPPORTED;
+}
+
+// Memory of a device; move-only.
+template <typename T>
+class Memory {
+public:
+    Memory() = default;
+    Memory(const Table &table, Queue *queue, uint64_t count) : table_(&table), queue_(queue), count_(count) {
+        Message why{};
+        void *raw = nullptr;
+        const int32_t status = table.allocate(queue, (count > 0 ? count : 1) * sizeof(T), &raw, &why);
+        if (status != LOCUS_OK)
+            fail(status, why.text);
+        data_ = static_cast<T *>(raw);
+    }
+    Memory(Memory &&other) noexcept { *this = std::move(other); }
+    Memory &operator=(Memory &&other) noexcept {
+        std::swap(table_, other.table_);
+        std::swap(queue_, other.queue_);
+        std::swap(data_, other.data_);
+        std::swap(count_, other.count_);
+        return *this;
+    }
+    ~Memory() {
+        if (data_ != nullptr)
+            table_->release(queue_, data_);
+    }
+
+    T *get() const { return data_; }
+    uint64_t count() const { return count_; }
+    uint64_t bytes() const { return count_ * sizeof(T); }
+
+private:
+    const Table *table_ = nullptr;
+    Queue *queue_ = nullptr;
+    T *data_ = nullptr;
+    uint64_t count_ = 0;
+};
+
+class Device {
+public:
+    explicit Device(const Table &table) : table_(table) {
+        Message why{};
+        if (const int32_t status = table.open(&queue_, &machine_, &why); status != LOCUS_OK)
+            fail(status, why.text);
+    }
+    Device(const Device &) = delete;
+    Device &operator=(const Device &) = delete;
+    ~Device() { table_.close(queue_); }
+
+    const Machine &machine() const { return machine_; }
+    void use_stream(void *stream) {
+        call([&](Message *why) { return table_.use_stream(queue_, stream, why); });
+    }
+
+    template <typename T>
+    Memory<T> allocate(uint64_t count) {
+        return Memory<T>(table_, queue_, count);
+    }
+    template <typename T>
+    Memory<T> copy_of(std::span<const T> values) {
+        Memory<T> memory = allocate<T>(values.size());
+        upload(memory.get(), values);
+        return memory;
+    }
+    template <typename T>
+    void upload(T *to, std::span<const T> values) {
+        if (!values.empty())
+            call([&](Message *why) { return table_.upload(queue_, to, values.data(), values.size_bytes(), why); });
+    }
+    template <typename T>
+    void download(std::span<T> to, const T *from) {
+        if (!to.empty())
+            call([&](Message *why) { return table_.download(queue_, to.data(), from, to.size_bytes(), why); });
+    }
+    template <typename T>
+    T download(const T *from) {
+        T value;
+        download(std::span<T>(&value, 1), from);
+        return value;
+    }
+    void compact(const uint8_t *flags, uint64_t count, uint64_t *list, uint64_t *listed) {
+        call([&](Message *why) { return table_.compact(queue_, flags, count, list, listed, why); });
+    }
+    void finish() {
+        call([&](Message *why) { return table_.finish(queue_, why); });
+    }
+
+    // Put a kernel into the queue. `items`: see Launch.
+    template <typename Body>
+    void launch(Launch launch, const Body &body, uint64_t items) {
+        launch.body = &body;
+        launch.body_bytes = sizeof body;
+        launch.items = items;
+        if (items > 0)
+            call([&](Message *why) { return table_.launch(queue_, &launch, why); });
+    }
+    template <typename Body>
+    uint64_t resident(Launch launch, const Body &body) {
+        launch.body = &body;
+        launch.body_bytes = sizeof body;
+        uint64_t blocks = 0;
+        call([&](Message *why) { return table_.resident(queue_, &launch, &blocks, why); });
+        return blocks;
+    }
+
+private:
+    template <typename Call>
+    void call(Call &&work) {
+        Message why{};
+        const int32_t status = work(&why);
+        if (status != LOCUS_OK)
+            fail(status, why.text);
+    }
+
+    const Table &table_;
+    Queue *queue_ = nullptr;
+    Machine machine_{};
+};
+
+} // namespace locus::device

@@ -1,0 +1,425 @@
+#include "graph/device/field.hpp"
+
+#include "core/team.hpp"
+#include "graph/device/transfer.hpp"
+#include "graph/device/visit.hpp"
+#include "graph/lattice.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace locus::device {
+
+using graph::Change;
+using graph::Problem;
+using graph::Report;
+using graph::Source;
+using graph::Words;
+
+namespace {
+
+constexpr uint64_t bricks_at_once = 4096; // packed on the host, and copied
+constexpr uint64_t first_rounds = 8;      // launched before the host looks whether there is more to do
+constexpr uint64_t most_rounds = 48;
+constexpr uint64_t bucket_steps = 32; // a bucket of keys is as wide as so many of the smallest weights
+
+Layout layout_of(const graph::Grid &grid) {
+    Layout layout{};
+    uint64_t count = 1;
+    for (size_t a = 0; a < 3; ++a) {
+        layout.dims[a] = grid.dims()[a];
+        const uint64_t bricks = (grid.dims()[a] + kSide - 1) / kSide;
+        count *= bricks; // cannot wrap: a grid has fewer than 2^40 voxels
+        if (count > uint64_t{1} << 31)
+            fail(LOCUS_E_MEMORY, "the grid has too many bricks for the CUDA backend");
+        layout.bricks[a] = static_cast<uint32_t>(bricks);
+    }
+    return layout;
+}
+
+// Call visit(voxel, position in the brick) for the voxels of a brick inside the grid.
+template <typename Visit>
+void for_voxels(const graph::Grid &grid, const Layout &layout, uint32_t brick, Visit &&visit) {
+    int place[3];
+    layout.place(brick, place);
+    uint64_t begin[3], end[3];
+    for (size_t a = 0; a < 3; ++a) {
+        begin[a] = static_cast<uint64_t>(place[a]) * kSide;
+        end[a] = std::min<uint64_t>(begin[a] + kSide, grid.dims()[a]);
+    }
+    for (uint64_t z = begin[2]; z < end[2]; ++z)
+        for (uint64_t y = begin[1]; y < end[1]; ++y)
+            for (uint64_t x = begin[0]; x < end[0]; ++x)
+                visit(grid.index(x, y, z), x - begin[0] + kSide * (y - begin[1] + kSide * (z - begin[2])));
+}
+
+auto order(const Source &source) { return std::tuple(source.voxel, source.distance, source.label); }
+
+} // namespace
+
+template <typename Word>
+Field<Word>::Field(Device &device, const graph::Graph &graph)
+    : device_(device), graph_(graph), tables_(device, graph) {
+    const uint64_t count = layout().count();
+    words_ = device.allocate<Word>(count * kVoxels);
+    operands_ = device.allocate<float>(count * kVoxels);
+    control_ = device.allocate<Control<Word>>(1);
+    key_ = device.allocate<Word>(count);
+    waiting_ = device.allocate<uint32_t>(3 * count);
+    near_ = device.allocate<uint32_t>(count);
+    touched_ = device.allocate<uint32_t>(count);
+    is_touched_ = device.allocate<uint32_t>(count);
+}
+
+template <typename Word>
+uint64_t Field<Word>::bytes() const {
+    return words_.bytes() + operands_.bytes() + open_.bytes() + key_.bytes() + waiting_.bytes() + near_.bytes() +
+           touched_.bytes() + is_touched_.bytes();
+}
+
+template <typename Word>
+Layout Field<Word>::layout() const {
+    return layout_of(graph_.grid());
+}
+
+template <typename Word>
+Bricks<Word> Field<Word>::bricks() const {
+    return {layout(), words_.get(), operands_.get(), open_.get(), classes_of(graph_.grid()), beyond_};
+}
+
+template <typename Word>
+Rounds<Word> Field<Word>::rounds(bool record) const {
+    const uint64_t count = layout().count();
+    const auto width = static_cast<unsigned>(std::bit_width(bucket_steps * graph_.smallest_weight())) - 1;
+    uint32_t *const waiting = waiting_.get();
+    return {control_.get(),
+            key_.get(),
+            {waiting, waiting + count, waiting + 2 * count},
+            near_.get(),
+            record ? touched_.get() : nullptr,
+            is_touched_.get(),
+            std::min<uint32_t>(width + graph_.layout().label_bits, std::numeric_limits<Word>::digits - 1)};
+}
+
+template <typename Word>
+Launch Field<Word>::launch(Kernel kernel) const {
+    Launch launch{};
+    launch.kernel = kernel;
+    launch.word_bits = graph_.layout().bits;
+    return launch;
+}
+
+template <typename Word>
+template <typename T>
+void Field<Word>::fill(const Memory<T> &to, T value) {
+    Launch with = launch(Kernel::fill_words);
+    with.word_bits = 8 * sizeof(T);
+    device_.launch(with, Fill<T>{to.get(), value, to.count()}, to.count());
+}
+
+template <typename Word>
+void Field<Word>::pack(std::span<const uint32_t> list, std::vector<float> &operands,
+                       std::vector<uint32_t> &open) const {
+    const Operands operand(graph_);
+    const Layout bricks = layout();
+    operands.assign(list.size() * kVoxels, operand.impassable());
+    open.assign(graph_.cuts() != nullptr ? list.size() * kVoxels : 0, 0);
+    parallel_for(graph_.threads(), list.size(), 64, [&](uint64_t begin, uint64_t end) {
+        for (uint64_t i = begin; i < end; ++i)
+            for_voxels(graph_.grid(), bricks, list[i], [&](uint64_t voxel, uint64_t position) {
+                operands[i * kVoxels + position] = operand(voxel);
+                if (!open.empty())
+                    open[i * kVoxels + position] = graph_.open_edges(voxel);
+            });
+    });
+}
+
+template <typename Word>
+void Field<Word>::import() {
+    if (imported_ == graph_.version())
+        return;
+    const uint32_t count = layout().count();
+    if (graph_.cuts() != nullptr && open_.count() == 0)
+        open_ = device_.allocate<uint32_t>(uint64_t{count} * kVoxels);
+    std::vector<uint32_t> list, open;
+    std::vector<float> operands;
+    for (uint32_t first = 0; first < count; first += static_cast<uint32_t>(list.size())) {
+        list.resize(std::min<uint64_t>(bricks_at_once, count - first));
+        for (size_t i = 0; i < list.size(); ++i)
+            list[i] = first + static_cast<uint32_t>(i);
+        pack(list, operands, open);
+        device_.upload(operands_.get() + uint64_t{first} * kVoxels, std::span<const float>(operands));
+        if (!open.empty())
+            device_.upload(open_.get() + uint64_t{first} * kVoxels, std::span<const uint32_t>(open));
+    }
+    imported_ = graph_.version();
+}
+
+// The bricks of a list alone. The first cut of a graph concerns all of them.
+template <typename Word>
+void Field<Word>::import(std::span<const uint32_t> list) {
+    if (graph_.cuts() != nullptr && open_.count() == 0) {
+        imported_.reset();
+        return import();
+    }
+    std::vector<uint32_t> open;
+    std::vector<float> operands;
+    for (size_t first = 0; first < list.size(); first += bricks_at_once) {
+        const auto part = list.subspan(first, std::min<size_t>(bricks_at_once, list.size() - first));
+        pack(part, operands, open);
+        const auto where = device_.copy_of(part);
+        const auto packed = device_.copy_of(std::span<const float>(operands));
+        const Scatter<float> scatter{operands_.get(), packed.get(), where.get(), part.size()};
+        device_.launch(launch(Kernel::scatter_operands), scatter, scatter.count());
+        const auto packed_open = device_.copy_of(std::span<const uint32_t>(open));
+        if (!open.empty())
+            device_.launch(launch(Kernel::scatter_open),
+                           Scatter<uint32_t>{open_.get(), packed_open.get(), where.get(), part.size()},
+                           scatter.count());
+        device_.finish(); // before the memory goes
+    }
+    imported_ = graph_.version();
+}
+
+template <typename Word>
+void Field<Word>::set_sources(std::span<const Source> sources) {
+    const Layout bricks = layout();
+    std::vector<std::pair<uint64_t, Word>> seeds;
+    for (const Source &source : sources) {
+        const auto [x, y, z] = graph_.grid().place(source.voxel);
+        seeds.emplace_back(bricks.address(x, y, z),
+                           static_cast<Word>(graph_.layout().pack(source.distance, source.label)));
+    }
+    std::sort(seeds.begin(), seeds.end());
+    std::vector<uint64_t> addresses;
+    std::vector<Word> words;
+    for (const auto &[address, word] : seeds) {
+        addresses.push_back(address);
+        words.push_back(word);
+    }
+    seed_address_ = device_.copy_of(std::span<const uint64_t>(addresses));
+    seed_word_ = device_.copy_of(std::span<const Word>(words));
+    sources_.assign(sources.begin(), sources.end());
+}
+
+// Empty lists, nothing touched.
+template <typename Word>
+void Field<Word>::begin_rounds() {
+    Control<Word> control{};
+    for (Round<Word> &round : control.round)
+        round.least = kNoKey<Word>;
+    device_.upload(control_.get(), std::span<const Control<Word>>(&control, 1));
+    fill(key_, kNoKey<Word>);
+    fill(is_touched_, uint32_t{0});
+    round_ = 0;
+    work_ = {};
+}
+
+template <typename Word>
+void Field<Word>::plant(bool record) {
+    device_.launch(launch(Kernel::plant), Plant<Word>{bricks(), rounds(record), seeds(), round_}, sources_.size());
+}
+
+// Launch rounds until none is left to do; the host looks at their state once for many.
+template <typename Word>
+void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
+    const auto run = [&]<typename Rule, typename Cells>(const Rule &rule, const Launch &kernel, Cells) {
+        const auto with = [&]<bool raising>(std::bool_constant<raising>) {
+            Visit<Word, Rule, Cells, raising> visit{bricks(), rounds(record), rule, seeds(),
+                                                    graph_.layout().label_bits, round_};
+            Launch visiting = kernel;
+            visiting.kernel = raising ? Kernel::raise : Kernel::lower;
+            const uint64_t blocks = std::min<uint64_t>(device_.resident(visiting, visit), layout().count());
+            uint64_t batch = first_rounds;
+            for (;;) {
+                for (uint64_t i = 0; i < batch; ++i) {
+                    const Select<Word> select{rounds(record), round_};
+                    visit.round = round_;
+                    device_.launch(launch(Kernel::select), select, uint64_t{layout().count()} + 1);
+                    device_.launch(visiting, visit, blocks);
+                    round_ = (round_ + 1) % 3;
+                }
+                work_.rounds += batch;
+                const auto control = device_.download(control_.get());
+                work_.visits = control.visits;
+                work_.vain = control.vain;
+                work_.passes = control.passes;
+                if (control.round[round_].waiting == 0)
+                    return;
+                const auto done = static_cast<double>(work_.rounds);
+                progress.report(done / (done + 64));
+                batch = std::min(batch + batch / 2, most_rounds);
+            }
+        };
+        raise ? with(std::true_type{}) : with(std::false_type{});
+    };
+    with_rule_of<Word>(graph_, tables_, [&]<typename Rule>(const Rule &rule, const Launch &kernel) {
+        if constexpr (Rule::kind == RuleKind::half_sum)
+            if (kernel.simple != 0)
+                return run(rule, kernel, HalfSumCells<Word>{});
+        run(rule, kernel, EdgeCells<Word, Rule>{});
+    });
+}
+
+// All words to dense memory, in parts that need little room on the device.
+template <typename Word>
+void Field<Word>::give(Words &words) {
+    const graph::Grid &grid = graph_.grid();
+    std::vector<Word> dense(grid.voxels());
+    const auto unreached = static_cast<Word>(graph_.layout().unreached());
+    const uint64_t plane = grid.nx() * grid.ny();
+    const uint64_t planes = std::clamp<uint64_t>((uint64_t{1} << 26) / plane, 1, grid.nz());
+    const auto packed = device_.allocate<Word>(plane * planes);
+    for (uint64_t z = 0; z < grid.nz(); z += planes) {
+        const Export<Word> body{bricks(), packed.get(), unreached, z, std::min(planes, grid.nz() - z)};
+        device_.launch(launch(Kernel::export_words), body, body.count());
+        device_.download(std::span<Word>(dense).subspan(z * plane, body.count()), packed.get());
+    }
+    reached_ = static_cast<uint64_t>(
+        std::count_if(dense.begin(), dense.end(), [&](Word word) { return word != unreached; }));
+    words = std::move(dense);
+}
+
+template <typename Word>
+Report Field<Word>::solve(const Problem &problem, Words &words, Progress &progress) {
+    graph::Stopwatch watch;
+    Report report;
+    solved_ = false;
+    beyond_ = beyond_of<Word>(graph_, problem.limit());
+    import();
+    set_sources(problem.sources);
+    report.seconds_import = watch.lap();
+
+    fill(words_, beyond_);
+    begin_rounds();
+    plant(false);
+    run_rounds(false, false, progress);
+    report.iterations = work_.visits;
+    report.relaxations = work_.passes * kVoxels * graph_.grid().connectivity();
+    report.seconds_solve = watch.lap();
+
+    give(words);
+    report.clipped = reached_ < graph_.passable_voxels();
+    solved_ = true;
+    report.seconds_export = watch.lap();
+    return report;
+}
+
+template <typename Word>
+bool Field<Word>::can_update(const Problem &problem, const Words &words) const {
+    const auto *dense = std::get_if<std::vector<Word>>(&words);
+    return solved_ && imported_ && beyond_ == beyond_of<Word>(graph_, problem.limit()) && dense != nullptr &&
+           dense->size() == graph_.grid().voxels() && graph_.edits_since(*imported_).has_value();
+}
+
+// The bricks of all voxels that look at an edited one, and those of the seeds that are gone.
+template <typename Word>
+std::vector<uint32_t> Field<Word>::edited_bricks(std::span<const Source> sources) const {
+    const Layout bricks = layout();
+    std::vector<uint32_t> list;
+    const std::span<const graph::Box> edits = *graph_.edits_since(*imported_);
+    for (const graph::Box &box : edits) {
+        int first[3], last[3];
+        for (size_t a = 0; a < 3; ++a) {
+            first[a] = static_cast<int>((box.origin[a] - std::min<uint64_t>(box.origin[a], 1)) / kSide);
+            last[a] = static_cast<int>(std::min(box.origin[a] + box.extent[a], graph_.grid().dims()[a] - 1) / kSide);
+        }
+        for (int z = first[2]; z <= last[2]; ++z)
+            for (int y = first[1]; y <= last[1]; ++y)
+                for (int x = first[0]; x <= last[0]; ++x)
+                    list.push_back(bricks.index(x, y, z));
+    }
+    std::vector<Source> before = sources_, after(sources.begin(), sources.end()), gone;
+    const auto less = [](const Source &a, const Source &b) { return order(a) < order(b); };
+    std::sort(before.begin(), before.end(), less);
+    std::sort(after.begin(), after.end(), less);
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(gone), less);
+    for (const Source &source : gone) {
+        const auto [x, y, z] = graph_.grid().place(source.voxel);
+        list.push_back(static_cast<uint32_t>(bricks.address(x, y, z) / kVoxels));
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    return list;
+}
+
+// Raise what nothing supports any more, then lower from there on, from the edits and from new seeds; see
+// graph/bricks/update.cpp.
+template <typename Word>
+Report Field<Word>::update(const Problem &problem, Words &words, Progress &progress, Change &change) {
+    graph::Stopwatch watch;
+    Report report;
+    solved_ = false;
+    const std::vector<uint32_t> edited = edited_bricks(problem.sources);
+    import(edited);
+    set_sources(problem.sources);
+    const auto list = device_.copy_of(std::span<const uint32_t>(edited));
+    const auto taken = device_.copy_of(std::span<const uint32_t>(std::array<uint32_t, 1>{0}));
+    report.seconds_import = watch.lap();
+
+    begin_rounds();
+    device_.launch(launch(Kernel::wake_list), WakeList<Word>{rounds(true), list.get(), edited.size(), round_},
+                   edited.size());
+    progress.part(0, 0.5);
+    run_rounds(true, true, progress);
+    const Resume<Word> resume{bricks(), rounds(true), taken.get(), round_};
+    const Launch resuming = launch(Kernel::resume);
+    device_.launch(resuming, resume, std::min<uint64_t>(device_.resident(resuming, resume), layout().count()));
+    plant(true);
+    progress.part(0.5, 1);
+    run_rounds(false, true, progress);
+    report.iterations = work_.visits;
+    report.relaxations = work_.passes * kVoxels * graph_.grid().connectivity();
+    report.seconds_solve = watch.lap();
+
+    change = give_touched(words);
+    report.clipped = reached_ < graph_.passable_voxels();
+    solved_ = true;
+    report.seconds_export = watch.lap();
+    return report;
+}
+
+// The words of the bricks that were touched, and what is different about them.
+template <typename Word>
+Change Field<Word>::give_touched(Words &words) {
+    auto &dense = std::get<std::vector<Word>>(words);
+    const graph::Grid &grid = graph_.grid();
+    const Layout bricks = layout();
+    const auto unreached = static_cast<Word>(graph_.layout().unreached());
+    std::vector<uint32_t> list(device_.download(control_.get()).touched);
+    device_.download(std::span<uint32_t>(list), touched_.get());
+    std::vector<Word> values(list.size() * kVoxels);
+    const auto packed = device_.allocate<Word>(values.size());
+    device_.launch(launch(Kernel::gather), Gather<Word>{packed.get(), words_.get(), touched_.get(), list.size()},
+                   values.size());
+    device_.download(std::span<Word>(values), packed.get());
+
+    Change change;
+    std::array<uint64_t, 3> first = grid.dims(), last{};
+    for (size_t i = 0; i < list.size(); ++i)
+        for_voxels(grid, bricks, list[i], [&](uint64_t voxel, uint64_t position) {
+            const Word stored = values[i * kVoxels + position];
+            const Word word = stored < beyond_ ? stored : unreached;
+            if (word == dense[voxel])
+                return;
+            ++change.voxels;
+            reached_ += dense[voxel] == unreached ? 1 : 0;
+            reached_ -= word == unreached ? 1 : 0;
+            dense[voxel] = word;
+            const auto place = grid.place(voxel);
+            for (size_t a = 0; a < 3; ++a) {
+                first[a] = std::min(first[a], place[a]);
+                last[a] = std::max(last[a], place[a]);
+            }
+        });
+    for (size_t a = 0; a < 3 && change.voxels > 0; ++a) {
+        change.box.origin[a] = first[a];
+        change.box.extent[a] = last[a] - first[a] + 1;
+    }
+    return change;
+}
+
+template class Field<uint32_t>;
+template class Field<uint64_t>;
+
+} // namespace locus::device

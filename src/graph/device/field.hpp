@@ -1,0 +1,76 @@
+// A graph in bricks on a device: its operands, its cut edges and the words of the latest solve, which stay there for the
+// next solve or update.
+#pragma once
+
+#include "graph/device/bricks.hpp"
+#include "graph/device/device.hpp"
+#include "graph/device/metric.hpp"
+#include "graph/engine.hpp"
+
+namespace locus::device {
+
+// What the rounds of a solve or update did.
+struct Work {
+    uint64_t rounds = 0; // launched, some at the end in vain
+    uint64_t visits = 0;
+    uint64_t vain = 0;   // visits that changed nothing
+    uint64_t passes = 0; // over a brick's rows, in all visits
+};
+
+template <typename Word>
+class Field {
+public:
+    Field(Device &device, const graph::Graph &graph);
+
+    // As Engine::solve and Engine::update; after any failure the field is of no more use.
+    graph::Report solve(const graph::Problem &problem, graph::Words &words, Progress &progress);
+    bool can_update(const graph::Problem &problem, const graph::Words &words) const;
+    graph::Report update(const graph::Problem &problem, graph::Words &words, Progress &progress, graph::Change &change);
+
+    uint64_t bytes() const;
+    const Work &work() const { return work_; }
+
+private:
+    Layout layout() const;
+    Bricks<Word> bricks() const;
+    Rounds<Word> rounds(bool record) const;
+    Seeds<Word> seeds() const { return {seed_address_.get(), seed_word_.get(), sources_.size()}; }
+    Launch launch(Kernel kernel) const;
+    template <typename T>
+    void fill(const Memory<T> &to, T value);
+
+    // Operands and open edges of bricks from `first` on, or of those in a list, packed.
+    void pack(std::span<const uint32_t> list, std::vector<float> &operands, std::vector<uint32_t> &open) const;
+    void import();
+    void import(std::span<const uint32_t> list);
+    void set_sources(std::span<const graph::Source> sources);
+
+    void begin_rounds();
+    void plant(bool record);
+    void run_rounds(bool raise, bool record, Progress &progress);
+    std::vector<uint32_t> edited_bricks(std::span<const graph::Source> sources) const;
+    void give(graph::Words &words);
+    graph::Change give_touched(graph::Words &words);
+
+    Device &device_;
+    const graph::Graph &graph_;
+    RuleTables<Word> tables_;
+    Memory<Word> words_;
+    Memory<float> operands_;
+    Memory<uint32_t> open_;
+    Memory<Control<Word>> control_;
+    Memory<Word> key_;
+    Memory<uint32_t> waiting_, near_, touched_, is_touched_;
+    Memory<uint64_t> seed_address_;
+    Memory<Word> seed_word_;
+
+    std::optional<uint64_t> imported_; // the graph's version when its materials were read
+    bool solved_ = false;              // the words are those of sources_ at version imported_
+    Word beyond_ = 0;
+    uint64_t reached_ = 0;
+    std::vector<graph::Source> sources_;
+    uint32_t round_ = 0;
+    Work work_;
+};
+
+} // namespace locus::device
