@@ -18,9 +18,14 @@ uint32_t locus_version(void) noexcept { return LOCUS_VERSION; }
 const char *locus_version_text(void) noexcept {
     return LOCUS_TEXT(LOCUS_VERSION_MAJOR) "." LOCUS_TEXT(LOCUS_VERSION_MINOR) "." LOCUS_TEXT(LOCUS_VERSION_PATCH)
 #ifdef LOCUS_SIMD_SCALAR_ONLY
-        " simd=scalar";
+        " simd=scalar"
 #else
-        " simd=highway";
+        " simd=highway"
+#endif
+#ifdef LOCUS_WITH_CUDA
+        " cuda=yes";
+#else
+        " cuda=no";
 #endif
 }
 

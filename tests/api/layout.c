@@ -20,13 +20,16 @@ int main(void) {
     FIELD(locus_seed, id, 32);
     FIELD(locus_seed, fixed, 36);
 
-    SIZE(locus_diagram_options, 24);
+    SIZE(locus_diagram_options, 48);
     FIELD(locus_diagram_options, struct_size, 0);
     FIELD(locus_diagram_options, engine, 8);
     FIELD(locus_diagram_options, record_trace, 12);
     FIELD(locus_diagram_options, max_distance, 16);
+    FIELD(locus_diagram_options, grain, 24);
+    FIELD(locus_diagram_options, reserved0, 36);
+    FIELD(locus_diagram_options, stream, 40);
 
-    SIZE(locus_diagram_stats, 96);
+    SIZE(locus_diagram_stats, 104);
     FIELD(locus_diagram_stats, struct_size, 0);
     FIELD(locus_diagram_stats, reached, 8);
     FIELD(locus_diagram_stats, seeds, 16);
@@ -40,6 +43,8 @@ int main(void) {
     FIELD(locus_diagram_stats, bytes, 80);
     FIELD(locus_diagram_stats, engine, 88);
     FIELD(locus_diagram_stats, threads, 92);
+    FIELD(locus_diagram_stats, backend, 96);
+    FIELD(locus_diagram_stats, reserved0, 100);
 
     SIZE(locus_cell_pair, 16);
     FIELD(locus_cell_pair, a, 0);

@@ -36,6 +36,7 @@ int main(void) {
     CHECK(locus_version() == LOCUS_VERSION);
     CHECK(strncmp(locus_version_text(), version, strlen(version)) == 0);
     CHECK(strstr(locus_version_text(), "simd=") != NULL);
+    CHECK(strstr(locus_version_text(), " cuda=yes") != NULL || strstr(locus_version_text(), " cuda=no") != NULL);
     for (i = 0; i < sizeof statuses / sizeof statuses[0]; i++)
         CHECK(strcmp(locus_status_name(statuses[i].number), statuses[i].name) == 0);
     CHECK(strcmp(locus_last_error(), "") == 0); /* nothing has failed yet */

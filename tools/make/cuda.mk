@@ -1,6 +1,58 @@
-# The CUDA backend: liblocus_cuda.so, which liblocus opens at run time, and the emulated device that the tests run its kernels on.
+# The CUDA backend: liblocus_cuda.so, which liblocus opens at run time. It is built where nvcc is found, unless CUDA=no; only nvcc sees
+# CUDA's headers. NVCC_ARCH: machine code for these GPUs, and PTX for newer ones.
+CUDA ?= $(if $(SANITIZE),no,yes)
+ifeq ($(origin NVCC),undefined)
+NVCC := $(if $(filter yes,$(CUDA)),$(firstword $(shell command -v nvcc 2>/dev/null) $(wildcard /usr/local/cuda/bin/nvcc)))
+endif
+NVCC_ARCH ?= -gencode arch=compute_80,code=sm_80 -gencode arch=compute_90,code=[sm_90,compute_90]
+# -fmad=false: a fused multiply-add would give other edge weights than the CPU's separate ones.
+NVCC_FLAGS := -std=c++20 -O3 -Iinclude -Isrc -I. -fmad=false --expt-relaxed-constexpr \
+    -Xcompiler -fPIC,-fvisibility=hidden,-Wall,-ffile-prefix-map=$(CURDIR)/= $(NVCC_ARCH)
+CUDA_SOURCES := $(wildcard cuda/*.cu)
+CUDA_OBJECTS := $(CUDA_SOURCES:%=$(OUT)/%.o)
+SHARED_CUDA := $(OUT)/liblocus_cuda.so.$(VERSION)
 
-# The emulated device: kernel bodies on the host, for tests only.
-EMULATED_OBJECTS := $(OUT)/tests/emulated/device.cpp.o
+# What each kernel needs stands in the .ptxas file beside its object.
+$(OUT)/%.cu.o: %.cu
+	@mkdir -p $(@D)
+	@echo "  NVCC $<"
+	@$(NVCC) $(NVCC_FLAGS) -Xptxas -v -MMD -MP -MF $(@:.o=.d) -MT $@ -c $< -o $@ 2>$(@:.o=.ptxas) || { cat $(@:.o=.ptxas); exit 1; }
+
+$(SHARED_CUDA): $(CUDA_OBJECTS) cuda/liblocus_cuda.map
+	@echo "  LD  $@"
+	@$(NVCC) -shared -cudart static $(CUDA_OBJECTS) -o $@ $(NVCC_ARCH) -Xlinker -soname,liblocus_cuda.so.$(SOVERSION),--version-script=cuda/liblocus_cuda.map
+	@ln -sfn $(@F) $(OUT)/liblocus_cuda.so.$(SOVERSION)
+
+.PHONY: cuda cuda-table
+cuda: $(if $(NVCC),$(SHARED_CUDA)) ## build liblocus_cuda.so, the CUDA backend
+	@$(if $(NVCC),echo "built $(SHARED_CUDA)",echo "cuda: there is no nvcc"; exit 1)
+lib: $(if $(NVCC),$(SHARED_CUDA))
+cuda-table: $(if $(NVCC),$(CUDA_OBJECTS)) ## registers, shared memory and spills of every kernel, from the compiler's report
+	@tools/ptxas_table.sh $(CUDA_OBJECTS:.o=.ptxas)
+
+# What locus_version_text says.
+$(OUT)/src/capi/status.cpp.o: EXTRA_CPPFLAGS += $(if $(NVCC),-DLOCUS_WITH_CUDA)
+$(OUT)/src/capi/status.cpp.o: $(OUT)/cuda.found
+$(OUT)/cuda.found: FORCE
+	@mkdir -p $(@D)
+	@echo '$(NVCC)' | cmp -s - $@ || echo '$(NVCC)' >$@
+
+# The emulated device: kernel bodies on the host, for tests only; as a library it takes the place of liblocus_cuda.so. A driver that is
+# none stands beside it, and in a folder of its own a library that is not of this build.
+EMULATED := $(OUT)/tests/emulated
 $(OUT)/tests/emulated/%.cpp.o: EXTRA_CPPFLAGS += -I.
-$(OUT)/tests/unit_cuda: $(EMULATED_OBJECTS)
+$(OUT)/tests/unit_cuda: $(EMULATED)/device.cpp.o
+$(EMULATED)/liblocus_cuda.so.$(SOVERSION): $(EMULATED)/device.cpp.o $(EMULATED)/entry.cpp.o $(EMULATED)/libcuda.so.1
+	@$(CXX) -shared $(filter %.o,$^) $(LINK_STRICT) $(LDFLAGS_ALL) -o $@
+$(OUT)/tests/%/libcuda.so.1:
+	@mkdir -p $(@D)
+	@$(CC) -shared -xc /dev/null -o $@
+$(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION): $(OUT)/tests/stale/libcuda.so.1
+	@cp $< $@
+
+.PHONY: api-cuda-emulated api-cuda-stale
+api-cuda-emulated: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
+	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) $< 24 GPU
+api-cuda-stale: $(OUT)/tests/api/cuda $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION)
+	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(OUT)/tests/stale $< 1 'of another version than liblocus'
+api: api-cuda-emulated api-cuda-stale

@@ -20,7 +20,7 @@ $(2:%=$(OUT)/%.o): | $(call needs,$(5))
 $(OUT)/lib$(1).so.$(VERSION): $(2:%=$(OUT)/%.o) src/lib$(1).map $(OUT)/lib$(1).sources
 	@echo "  LD  $$@"
 	@$$(CXX) -shared -Wl,-soname,lib$(1).so.$(SOVERSION) -Wl,--version-script=src/lib$(1).map $(LINK_STRICT) \
-	    -Wl,-z,relro,-z,now -Wl,--as-needed $$(filter %.o,$$^) $(4) $$(LDFLAGS_ALL) -o $$@
+	    -Wl,-z,relro,-z,now $$(LINK_$(1)) -Wl,--as-needed $$(filter %.o,$$^) $(4) $$(LDFLAGS_ALL) -o $$@
 	@ln -sfn $$(@F) $(OUT)/lib$(1).so.$(SOVERSION)
 	@ln -sfn lib$(1).so.$(SOVERSION) $(OUT)/lib$(1).so
 
@@ -40,6 +40,8 @@ FORCE:
 IO_HEADERS := $(wildcard $(addprefix include/locus/,io.h volume.h records.h))
 LIB_SOURCES := $(wildcard src/core/*.cpp src/capi/*.cpp src/graph/*.cpp src/graph/*/*.cpp src/pmq/*.cpp src/pmq/*/*.cpp)
 $(eval $(call library,locus,$(LIB_SOURCES),$(filter-out $(IO_HEADERS),$(wildcard include/locus/*.h)),,))
+# liblocus_cuda.so is looked for beside it too.
+LINK_locus = -Wl,-rpath,'$$ORIGIN'
 LIB_SHARED := $(SHARED_locus)
 LIB_STATIC := $(STATIC_locus)
 

@@ -1,0 +1,298 @@
+/* The CUDA backend through the C interface: every form of the solver, updates and Sibson's weights against the CPU's.
+ * Without a GPU it tells why, and forcing the backend must say the same.
+ * cuda [rounds [words]]: how many random graphs are compared; `words` must stand in the reason why there is no GPU;
+ * "GPU" asks for one. */
+#include "check.h"
+
+#include <locus/locus.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static uint32_t state = 1;
+static uint32_t draw(uint32_t below) {
+    state = state * 1664525u + 1013904223u;
+    return (uint32_t)(((uint64_t)state * below) >> 32);
+}
+
+static int warnings = 0;
+static void log_line(int32_t level, const char *text, void *user) {
+    (void)user;
+    if (level >= LOCUS_LOG_WARNING)
+        ++warnings;
+    if (strstr(text, "GPU") != NULL)
+        printf("log: %s\n", text);
+}
+
+/* A graph of random materials, one of the two backends', and its diagram. */
+typedef struct pair {
+    locus_graph *graph[2];
+    locus_diagram *diagram[2];
+    size_t voxels;
+    uint64_t dims[3];
+} pair;
+
+static void make(pair *both, uint32_t engine) {
+    locus_graph_options options;
+    locus_diagram_options drawing;
+    locus_seed seeds[5];
+    float *material;
+    size_t i, k;
+    memset(both, 0, sizeof *both);
+    WORKS(locus_graph_options_init(&options, sizeof options));
+    for (k = 0; k < 3; ++k)
+        both->dims[k] = options.dims[k] = 5 + draw(30);
+    both->voxels = (size_t)(options.dims[0] * options.dims[1] * options.dims[2]);
+    options.connectivity = draw(3) == 0 ? 6 : draw(2) == 0 ? 18 : 26;
+    options.weight_rule = draw(4);
+    options.word_bits = draw(2) == 0 ? LOCUS_WORD_32 : LOCUS_WORD_64;
+    options.stiffness_exponent = draw(2) == 0 ? 1 : 1.5;
+    options.max_seeds = 64;
+    options.precision = 0.25;
+    options.material_min = 0.5;
+    options.material_max = 9;
+    options.spacing[draw(3)] = draw(2) == 0 ? 1 : 1.75;
+    options.log = log_line;
+    material = malloc(both->voxels * sizeof *material);
+    if (material == NULL)
+        exit(2);
+    for (i = 0; i < both->voxels; ++i)
+        material[i] = draw(8) == 0 ? NAN : 0.5f + (float)draw(1000) / 125;
+    for (i = 0; i < 5; ++i) {
+        uint64_t at;
+        seeds[i].x = draw((uint32_t)options.dims[0]);
+        seeds[i].y = draw((uint32_t)options.dims[1]);
+        seeds[i].z = draw((uint32_t)options.dims[2]);
+        seeds[i].distance = i == 3 ? 2.5 : 0;
+        seeds[i].id = 10 + (uint32_t)i;
+        seeds[i].fixed = 0;
+        at = seeds[i].x + options.dims[0] * (seeds[i].y + options.dims[1] * seeds[i].z);
+        material[at] = 1;
+    }
+    WORKS(locus_diagram_options_init(&drawing, sizeof drawing));
+    CHECK(drawing.grain[0] == 8 && drawing.grain[1] == 4 && drawing.grain[2] == 4 && drawing.stream == NULL);
+    if (draw(3) == 0)
+        drawing.max_distance = 30;
+    for (k = 0; k < 2; ++k) {
+        options.backend = k == 0 ? LOCUS_BACKEND_CPU : LOCUS_BACKEND_CUDA;
+        WORKS(locus_graph_create(&options, material, &both->graph[k]));
+        drawing.engine = k == 0 ? LOCUS_ENGINE_HEAP : engine;
+        WORKS(locus_diagram_create(both->graph[k], &drawing, &both->diagram[k]));
+        WORKS(locus_diagram_add_seeds(both->diagram[k], seeds, 5));
+    }
+    free(material);
+}
+
+static void end(pair *both) {
+    size_t k;
+    for (k = 0; k < 2; ++k) {
+        locus_diagram_destroy(both->diagram[k]);
+        locus_graph_destroy(both->graph[k]);
+    }
+}
+
+static void expect_same(const pair *both) {
+    uint64_t *distance[2];
+    uint32_t *label[2];
+    locus_diagram_stats stats;
+    size_t k;
+    for (k = 0; k < 2; ++k) {
+        distance[k] = malloc(both->voxels * sizeof **distance);
+        label[k] = malloc(both->voxels * sizeof **label);
+        if (distance[k] == NULL || label[k] == NULL)
+            exit(2);
+        WORKS(locus_diagram_distances_exact(both->diagram[k], NULL, distance[k], both->voxels));
+        WORKS(locus_diagram_labels(both->diagram[k], NULL, label[k], both->voxels));
+    }
+    CHECK(memcmp(distance[0], distance[1], both->voxels * sizeof **distance) == 0);
+    CHECK(memcmp(label[0], label[1], both->voxels * sizeof **label) == 0);
+    for (k = 0; k < 2; ++k) {
+        free(distance[k]);
+        free(label[k]);
+    }
+    stats.struct_size = sizeof stats;
+    WORKS(locus_diagram_get_stats(both->diagram[1], &stats));
+    CHECK(stats.backend == LOCUS_BACKEND_CUDA);
+    WORKS(locus_diagram_get_stats(both->diagram[0], &stats));
+    CHECK(stats.backend == LOCUS_BACKEND_CPU);
+}
+
+/* The same edits of both graphs. */
+static void edit(pair *both) {
+    locus_voxel_box box;
+    double point[3], normal[3];
+    const uint32_t kind = draw(4);
+    const float value = draw(2) == 0 ? NAN : 0.5f + (float)draw(8);
+    const uint32_t id = 10 + draw(5);
+    const uint64_t sources[3] = {draw((uint32_t)both->dims[0]), draw((uint32_t)both->dims[1]),
+                                 draw((uint32_t)both->dims[2])};
+    size_t k, axis;
+    for (axis = 0; axis < 3; ++axis) {
+        box.origin[axis] = draw((uint32_t)both->dims[axis]);
+        box.extent[axis] = 1 + draw((uint32_t)(both->dims[axis] - box.origin[axis]) / 3 + 1);
+        if (box.origin[axis] + box.extent[axis] > both->dims[axis])
+            box.extent[axis] = both->dims[axis] - box.origin[axis];
+        point[axis] = draw((uint32_t)both->dims[axis]);
+        normal[axis] = (double)draw(100) - 49.5;
+    }
+    for (k = 0; k < 2; ++k) {
+        if (kind == 0)
+            WORKS(locus_graph_fill_box(both->graph[k], &box, value));
+        if (kind == 1)
+            WORKS(locus_graph_cut_plane(both->graph[k], point, normal, &box, NULL));
+        if (kind == 2) {
+            const locus_voxel_box one = {{sources[0], sources[1], sources[2]}, {1, 1, 1}};
+            WORKS(locus_graph_fill_box(both->graph[k], &one, 1));
+            WORKS(locus_diagram_move_seed(both->diagram[k], id, sources[0], sources[1], sources[2]));
+        }
+        if (kind == 3)
+            WORKS(locus_graph_mend_box(both->graph[k], NULL, NULL));
+    }
+    if (kind != 0)
+        return;
+    /* A seed that stands on nothing any more is given its voxel back. */
+    for (k = 0; k < 2; ++k) {
+        locus_seed seeds[5];
+        size_t count, i;
+        WORKS(locus_diagram_get_seeds(both->diagram[k], seeds, 5, &count));
+        for (i = 0; i < count; ++i) {
+            const uint64_t voxel = seeds[i].x + both->dims[0] * (seeds[i].y + both->dims[1] * seeds[i].z);
+            const float one = 1;
+            WORKS(locus_graph_set_voxels(both->graph[k], &voxel, &one, 1));
+        }
+    }
+}
+
+static void compare_weights(const pair *both) {
+    locus_weights *weights[2];
+    uint64_t entries[2], rows, i;
+    size_t k;
+    uint64_t *offsets[2];
+    uint32_t *ids[2];
+    float *values[2];
+    uint64_t voxels[40];
+    for (i = 0; i < 40; ++i)
+        voxels[i] = draw((uint32_t)both->voxels);
+    for (k = 0; k < 2; ++k) {
+        WORKS(locus_weights_create_for(both->diagram[k], NULL, voxels, 40, &weights[k]));
+        WORKS(locus_weights_size(weights[k], &rows, &entries[k]));
+        offsets[k] = calloc(rows + 1, sizeof **offsets);
+        ids[k] = calloc(entries[k] + 1, sizeof **ids);
+        values[k] = calloc(entries[k] + 1, sizeof **values);
+        if (offsets[k] == NULL || ids[k] == NULL || values[k] == NULL)
+            exit(2);
+        WORKS(locus_weights_rows(weights[k], 0, rows, offsets[k], ids[k], values[k], entries[k], NULL));
+        locus_weights_destroy(weights[k]);
+    }
+    CHECK(entries[0] == entries[1]);
+    if (entries[0] == entries[1]) {
+        CHECK(memcmp(offsets[0], offsets[1], 41 * sizeof **offsets) == 0);
+        CHECK(memcmp(ids[0], ids[1], entries[0] * sizeof **ids) == 0);
+        CHECK(memcmp(values[0], values[1], entries[0] * sizeof **values) == 0);
+    }
+    for (k = 0; k < 2; ++k) {
+        free(offsets[k]);
+        free(ids[k]);
+        free(values[k]);
+    }
+}
+
+static void compare(int rounds) {
+    const uint32_t engines[] = {LOCUS_ENGINE_AUTO, LOCUS_ENGINE_RELAX, LOCUS_ENGINE_COMPACT, LOCUS_ENGINE_BRICKS};
+    int round;
+    for (round = 0; round < rounds; ++round) {
+        pair both;
+        int i;
+        make(&both, engines[round % 4]);
+        for (i = 0; i < 2; ++i)
+            WORKS(locus_diagram_solve(both.diagram[i], NULL, NULL));
+        expect_same(&both);
+        if (round % 3 == 0)
+            compare_weights(&both);
+        for (i = 0; i < 4; ++i) {
+            uint64_t changed[2];
+            locus_voxel_box box[2];
+            edit(&both);
+            WORKS(locus_diagram_update(both.diagram[0], &box[0], &changed[0], NULL, NULL));
+            WORKS(locus_diagram_update(both.diagram[1], &box[1], &changed[1], NULL, NULL));
+            CHECK(changed[0] == changed[1] && memcmp(&box[0], &box[1], sizeof box[0]) == 0);
+            expect_same(&both);
+        }
+        end(&both);
+        if (check_failures > 0) {
+            printf("in round %d\n", round);
+            return;
+        }
+    }
+    printf("%d random graphs, the same on the GPU and the CPU\n", rounds);
+}
+
+/* What is the same with and without a GPU. */
+static void automatic(int gpu) {
+    locus_graph_options options;
+    locus_diagram_options drawing;
+    locus_graph_info info;
+    locus_graph *graph = NULL;
+    locus_diagram *diagram = NULL;
+    const float material[8] = {1, 2, 1, 2, 1, 1, 1, 1};
+    WORKS(locus_graph_options_init(&options, sizeof options));
+    options.dims[0] = options.dims[1] = options.dims[2] = 2;
+    WORKS(locus_graph_create(&options, material, &graph));
+    info.struct_size = sizeof info;
+    WORKS(locus_graph_get_info(graph, &info));
+    CHECK(info.backend == (gpu ? LOCUS_BACKEND_CUDA : LOCUS_BACKEND_CPU));
+    WORKS(locus_diagram_options_init(&drawing, sizeof drawing));
+    drawing.reserved0 = 1;
+    REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "reserved0 is 1");
+    drawing.reserved0 = 0;
+    drawing.engine = LOCUS_ENGINE_COMPACT;
+    drawing.grain[1] = 0;
+    REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "grain[1] is 0, outside 1..1024");
+    drawing.grain[1] = 1025;
+    REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "grain[1] is 1025");
+    drawing.grain[1] = 1;
+    if (gpu)
+        WORKS(locus_diagram_create(graph, &drawing, &diagram));
+    else
+        REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_UNSUPPORTED, "LOCUS_ENGINE_COMPACT");
+    locus_diagram_destroy(diagram);
+    locus_graph_destroy(graph);
+}
+
+static double callers(uint64_t u, uint64_t v, double length, void *user) {
+    (void)user;
+    return length * (double)(1 + (u + v) % 3);
+}
+
+int main(int argc, char **argv) {
+    const int rounds = argc > 1 ? atoi(argv[1]) : 12;
+    const char *const words = argc > 2 ? argv[2] : "";
+    locus_graph_options options;
+    locus_graph *graph = NULL;
+    const float material = 1;
+    locus_status status;
+    WORKS(locus_graph_options_init(&options, sizeof options));
+    options.dims[0] = options.dims[1] = options.dims[2] = 1;
+    options.backend = LOCUS_BACKEND_CUDA;
+    status = locus_graph_create(&options, &material, &graph);
+    locus_graph_destroy(graph);
+    printf("%s\n", status == LOCUS_OK ? "there is a GPU" : locus_last_error());
+    if (status != LOCUS_OK) {
+        CHECK(strcmp(words, "GPU") != 0);
+        CHECK(strstr(locus_last_error(), words) != NULL);
+        if (status == LOCUS_E_DEVICE)
+            REFUSES(locus_graph_create(&options, &material, &graph), LOCUS_E_DEVICE, "backend is LOCUS_BACKEND_CUDA: ");
+        else
+            REFUSES(locus_graph_create(&options, &material, &graph), LOCUS_E_UNSUPPORTED,
+                    "backend is LOCUS_BACKEND_CUDA: ");
+        CHECK(graph == NULL);
+    } else {
+        compare(rounds);
+    }
+    options.weight_rule = LOCUS_WEIGHT_CALLER;
+    options.weight = callers;
+    REFUSES(locus_graph_create(&options, &material, &graph), LOCUS_E_UNSUPPORTED, "LOCUS_WEIGHT_CALLER");
+    automatic(status == LOCUS_OK);
+    CHECK(warnings == 0);
+    return check_result();
+}
