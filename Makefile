@@ -15,12 +15,12 @@ include tools/make/lib.mk
 include tools/make/io.mk
 include tools/make/demo.mk
 include tools/make/test.mk
-include tools/make/cuda.mk
 include tools/make/check.mk
 include tools/make/browser.mk
 include tools/make/docs.mk
 include tools/make/bench.mk
 include tools/make/bindings.mk
+include tools/make/cuda.mk
 include tools/make/install.mk
 
 .PHONY: help clean format

@@ -13,8 +13,7 @@ using device::Message;
 inline int32_t report(cudaError_t error, const char *call, Message *why) {
     if (error == cudaSuccess)
         return LOCUS_OK;
-    std::snprintf(why->text, sizeof why->text, "%s: %s (%s)", call, cudaGetErrorString(error),
-                  cudaGetErrorName(error));
+    std::snprintf(why->text, sizeof why->text, "%s: %s (%s)", call, cudaGetErrorString(error), cudaGetErrorName(error));
     cudaGetLastError(); // an error that passes leaves no trace in later calls
     if (error == cudaErrorMemoryAllocation)
         return LOCUS_E_MEMORY;

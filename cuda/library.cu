@@ -179,8 +179,9 @@ int32_t finish(Queue *queue, Message *why) {
     return LOCUS_OK;
 }
 
-constexpr Table table{sizeof(Table), device::kInterface, LOCUS_VERSION, open,     close,    use_stream, allocate, release,
-                      upload,        download,           launch,        resident, compact,  finish};
+constexpr Table table{sizeof(Table), device::kInterface, LOCUS_VERSION, open,   close,
+                      use_stream,    allocate,           release,       upload, download,
+                      launch,        resident,           compact,       finish};
 
 } // namespace
 } // namespace locus::cuda

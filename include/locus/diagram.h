@@ -29,8 +29,8 @@ typedef struct locus_diagram locus_diagram;
  * blocks of 8 x 8 x 8 voxels, and 8 bytes per voxel (12 with 64-bit words, 4 more once edges were cut), which stay in
  * its memory from one solve or update to the next. */
 #define LOCUS_ENGINE_BRICKS 4
-/* The relax engine with coarse stream compaction (thesis section 2.4.5): only grains of voxels that hold active ones are
- * worked on; CUDA only. */
+/* The relax engine with coarse stream compaction (thesis section 2.4.5): only grains of voxels that hold active ones
+ * are worked on; CUDA only. */
 #define LOCUS_ENGINE_COMPACT 5
 
 /* A seed: a place with an id of the caller's that names it in every result. */
@@ -48,9 +48,9 @@ typedef struct locus_diagram_options {
     double max_distance;   /* voxels farther than this stay unreached, >= 0; default +infinity: no cut-off */
     uint32_t grain[3];     /* for LOCUS_ENGINE_COMPACT: a grain's voxels in x, y, z, each 1..1024; default 8, 4, 4 */
     uint32_t reserved0;    /* 0 */
-    void *stream;          /* for the CUDA backend: the caller's cudaStream_t that all work is put on; calls still return
-                              when their result is there. It must outlive the diagram, and belong to the CUDA device
-                              that is the calling thread's. Default NULL: a stream of the diagram's own */
+    void *stream; /* for the CUDA backend: the caller's cudaStream_t that all work is put on; calls still return
+                     when their result is there. It must outlive the diagram, and belong to the CUDA device
+                     that is the calling thread's. Default NULL: a stream of the diagram's own */
 } locus_diagram_options;
 
 /* What the latest solve did. */

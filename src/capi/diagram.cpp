@@ -20,7 +20,12 @@ static_assert(sizeof(locus_place_options) == first_place_size, "append only; the
 static_assert(sizeof(locus_diagram_stats) == 104, "append only");
 
 locus_diagram_options defaults() {
-    return {sizeof(locus_diagram_options), LOCUS_ENGINE_AUTO, 0, std::numeric_limits<double>::infinity(), {8, 4, 4}, 0,
+    return {sizeof(locus_diagram_options),
+            LOCUS_ENGINE_AUTO,
+            0,
+            std::numeric_limits<double>::infinity(),
+            {8, 4, 4},
+            0,
             nullptr};
 }
 

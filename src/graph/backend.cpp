@@ -1,9 +1,9 @@
 // Diagrams on the backend of their graph. Where it was not asked for by name, the CPU goes on when the GPU fails.
 #include "core/error.hpp"
 #include "graph/device/engine.hpp"
+#include "graph/device/weights.hpp"
 #include "graph/engine.hpp"
 #include "graph/engines.hpp"
-#include "graph/device/weights.hpp"
 #include "graph/weights/natural.hpp"
 
 #include <locus/weights.h>

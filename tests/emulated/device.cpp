@@ -81,7 +81,8 @@ void on_threads(Share &&share) {
 template <typename Body>
 class Block {
 public:
-    Block(uint64_t index, uint64_t seed) : shared(*fresh<typename Body::Shared>(memory_)), index_(index), random_(seed) {
+    Block(uint64_t index, uint64_t seed)
+        : shared(*fresh<typename Body::Shared>(memory_)), index_(index), random_(seed) {
         std::memset(static_cast<void *>(locals_), 0xA5, sizeof locals_);
     }
     uint64_t index() const { return index_; }
@@ -267,8 +268,8 @@ int32_t finish(Queue *, Message *why) {
 } // namespace
 
 const Table &table() {
-    static const Table table{sizeof(Table), kInterface, LOCUS_VERSION, open,     close,    use_stream, allocate, release,
-                             upload,        download,   launch,        resident, compact, finish};
+    static const Table table{sizeof(Table), kInterface, LOCUS_VERSION, open,   close,    use_stream, allocate,
+                             release,       upload,     download,      launch, resident, compact,    finish};
     return table;
 }
 

@@ -7,7 +7,9 @@ endif
 NVCC_ARCH ?= -gencode arch=compute_80,code=sm_80 -gencode arch=compute_90,code=[sm_90,compute_90]
 # -fmad=false: a fused multiply-add would give other edge weights than the CPU's separate ones.
 NVCC_FLAGS := -std=c++20 -O3 -Iinclude -Isrc -I. -fmad=false --expt-relaxed-constexpr \
-    -Xcompiler -fPIC,-fvisibility=hidden,-Wall,-ffile-prefix-map=$(CURDIR)/= $(NVCC_ARCH)
+    -Xcompiler -fPIC,-fvisibility=hidden,-Wall $(NVCC_ARCH)
+# nvcc takes minutes over all kernels: through ccache where it is there.
+CCACHE := $(shell command -v ccache 2>/dev/null)
 CUDA_SOURCES := $(wildcard cuda/*.cu)
 CUDA_OBJECTS := $(CUDA_SOURCES:%=$(OUT)/%.o)
 SHARED_CUDA := $(OUT)/liblocus_cuda.so.$(VERSION)
@@ -16,7 +18,7 @@ SHARED_CUDA := $(OUT)/liblocus_cuda.so.$(VERSION)
 $(OUT)/%.cu.o: %.cu
 	@mkdir -p $(@D)
 	@echo "  NVCC $<"
-	@$(NVCC) $(NVCC_FLAGS) -Xptxas -v -MMD -MP -MF $(@:.o=.d) -MT $@ -c $< -o $@ 2>$(@:.o=.ptxas) || { cat $(@:.o=.ptxas); exit 1; }
+	@$(CCACHE) $(NVCC) $(NVCC_FLAGS) -Xptxas -v -MMD -MP -MF $(@:.o=.d) -MT $@ -c $< -o $@ 2>$(@:.o=.ptxas) || { cat $(@:.o=.ptxas); exit 1; }
 
 $(SHARED_CUDA): $(CUDA_OBJECTS) cuda/liblocus_cuda.map
 	@echo "  LD  $@"
@@ -56,3 +58,17 @@ api-cuda-emulated: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSIO
 api-cuda-stale: $(OUT)/tests/api/cuda $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(OUT)/tests/stale $< 1 'of another version than liblocus'
 api: api-cuda-emulated api-cuda-stale
+
+# One command for a machine with nvcc, g++ and a GPU, but no packages and no network.
+.PHONY: gpu-check gpu-check-here cuda-count
+gpu-check: ## on a machine with a GPU: build, test against the heap engine, compute-sanitizer, benchmarks, write tests/bench/results
+	@$(if $(NVCC),true,echo "gpu-check: there is no nvcc (PATH, /usr/local/cuda/bin, NVCC=)" >&2; exit 1)
+	@+$(MAKE) --no-print-directory SIMD=scalar SKIP_PACKAGES=1 gpu-check-here
+gpu-check-here: $(SHARED_locus) $(SHARED_CUDA) $(OUT)/tests/api/cuda $(BENCH_PROGRAM)
+	@NVCC=$(NVCC) tools/gpu_check.sh $(OUT)
+
+# What the solver would do on the gpu.* inputs, counted on the emulated device.
+$(OUT)/tests/emulated/count: $(EMULATED)/count.cpp.o $(EMULATED)/device.cpp.o $(OUT)/tests/bench/data/volumes.cpp.o $(OUT)/tests/bench/data/scans.cpp.o $(LIB_STATIC)
+	@$(CXX) $^ $(LDFLAGS_ALL) -o $@
+cuda-count: $(OUT)/tests/emulated/count ## rounds, visits and bytes of the CUDA solver, counted without a GPU
+	@$<

@@ -39,8 +39,8 @@ struct Layout {
     }
     // Where a voxel's word and operand stand.
     LOCUS_HD uint64_t address(uint64_t x, uint64_t y, uint64_t z) const {
-        const uint32_t brick = index(static_cast<int>(x / kSide), static_cast<int>(y / kSide),
-                                     static_cast<int>(z / kSide));
+        const uint32_t brick =
+            index(static_cast<int>(x / kSide), static_cast<int>(y / kSide), static_cast<int>(z / kSide));
         return uint64_t{brick} * kVoxels + x % kSide + kSide * (y % kSide + kSide * (z % kSide));
     }
 };
@@ -68,6 +68,7 @@ struct Round {
 template <typename Word>
 struct Control {
     Round<Word> round[3];
+    uint64_t rounds; // that had work
     uint64_t visits;
     uint64_t passes;  // over all rows of a brick, in all visits
     uint64_t vain;    // visits that changed nothing
@@ -110,6 +111,7 @@ struct Select {
         Round<Word> &now = rounds.control->round[round];
         const uint32_t next = (round + 1) % 3;
         if (i >= now.waiting) {
+            rounds.control->rounds += now.waiting > 0 ? 1 : 0;
             rounds.control->round[(round + 2) % 3] = {kNoKey<Word>, 0, 0, 0};
             return;
         }

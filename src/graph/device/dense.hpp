@@ -39,7 +39,8 @@ struct Dense {
                     if (at[0] + static_cast<uint64_t>(dx) >= dims[0] || moved == 0 || moved > classes ||
                         (leads >> number_of(dx, dy, dz) & 1) == 0)
                         continue;
-                    const int64_t offset = dx + static_cast<int64_t>(dims[0]) * (dy + static_cast<int64_t>(dims[1]) * dz);
+                    const int64_t offset =
+                        dx + static_cast<int64_t>(dims[0]) * (dy + static_cast<int64_t>(dims[1]) * dz);
                     visit(voxel + static_cast<uint64_t>(offset), dx, dy, dz);
                 }
             }

@@ -101,8 +101,7 @@ private:
     void update(uint64_t slot) {
         if (grain_active_.count() > 0)
             clear(grain_active_);
-        const Update<Word> body{dense(),          grains_,     settled_.get(),
-                                estimate_.get(), mask_.get(), active_.get() + slot};
+        const Update<Word> body{dense(), grains_, settled_.get(), estimate_.get(), mask_.get(), active_.get() + slot};
         Launch launch = launch_;
         launch.kernel = Kernel::update;
         device_.launch(launch, body, body.graph.voxels());
@@ -132,7 +131,7 @@ private:
     // The counts come to the host once for many iterations; those after the last one find nothing to do.
     template <typename Rule>
     void iterate(const Rule &rule, Report &report, Progress &progress) {
-        const Relax<Word, Rule> relax{dense(),          grains_,     rule,    settled_.get(),
+        const Relax<Word, Rule> relax{dense(),         grains_,     rule,    settled_.get(),
                                       estimate_.get(), mask_.get(), beyond_, problem_.graph.layout().label_bits};
         const uint64_t most =
             grain_active_.count() > 0 ? grain_active_.count() * grains_.volume() : relax.graph.voxels();

@@ -1,6 +1,6 @@
-// From a Launch to the body it means: run_*(runner, launch) call runner.items<Body>(launch) or runner.blocks<Body>(launch)
-// with the body's type, and return what that returns. One function per group of kernels, so that each may be compiled
-// on its own.
+// From a Launch to the body it means: run_*(runner, launch) call runner.items<Body>(launch) or
+// runner.blocks<Body>(launch) with the body's type, and return what that returns. One function per group of kernels, so
+// that each may be compiled on its own.
 #pragma once
 
 #include "graph/device/dense.hpp"

@@ -58,8 +58,7 @@ auto order(const Source &source) { return std::tuple(source.voxel, source.distan
 } // namespace
 
 template <typename Word>
-Field<Word>::Field(Device &device, const graph::Graph &graph)
-    : device_(device), graph_(graph), tables_(device, graph) {
+Field<Word>::Field(Device &device, const graph::Graph &graph) : device_(device), graph_(graph), tables_(device, graph) {
     const uint64_t count = layout().count();
     words_ = device.allocate<Word>(count * kVoxels);
     operands_ = device.allocate<float>(count * kVoxels);
@@ -225,8 +224,8 @@ template <typename Word>
 void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
     const auto run = [&]<typename Rule, typename Cells>(const Rule &rule, const Launch &kernel, Cells) {
         const auto with = [&]<bool raising>(std::bool_constant<raising>) {
-            Visit<Word, Rule, Cells, raising> visit{bricks(), rounds(record), rule, seeds(),
-                                                    graph_.layout().label_bits, round_};
+            Visit<Word, Rule, Cells, raising> visit{bricks(), rounds(record), rule, seeds(), graph_.layout().label_bits,
+                                                    round_};
             Launch visiting = kernel;
             visiting.kernel = raising ? Kernel::raise : Kernel::lower;
             const uint64_t blocks = std::min<uint64_t>(device_.resident(visiting, visit), layout().count());
@@ -239,14 +238,15 @@ void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
                     device_.launch(visiting, visit, blocks);
                     round_ = (round_ + 1) % 3;
                 }
-                work_.rounds += batch;
+                work_.launched += batch;
                 const auto control = device_.download(control_.get());
+                work_.rounds = control.rounds;
                 work_.visits = control.visits;
                 work_.vain = control.vain;
                 work_.passes = control.passes;
                 if (control.round[round_].waiting == 0)
                     return;
-                const auto done = static_cast<double>(work_.rounds);
+                const auto done = static_cast<double>(work_.launched);
                 progress.report(done / (done + 64));
                 batch = std::min(batch + batch / 2, most_rounds);
             }
@@ -275,8 +275,8 @@ void Field<Word>::give(Words &words) {
         device_.launch(launch(Kernel::export_words), body, body.count());
         device_.download(std::span<Word>(dense).subspan(z * plane, body.count()), packed.get());
     }
-    reached_ = static_cast<uint64_t>(
-        std::count_if(dense.begin(), dense.end(), [&](Word word) { return word != unreached; }));
+    reached_ =
+        static_cast<uint64_t>(std::count_if(dense.begin(), dense.end(), [&](Word word) { return word != unreached; }));
     words = std::move(dense);
 }
 

@@ -1,5 +1,5 @@
-// A graph in bricks on a device: its operands, its cut edges and the words of the latest solve, which stay there for the
-// next solve or update.
+// A graph in bricks on a device: its operands, its cut edges and the words of the latest solve, which stay there for
+// the next solve or update.
 #pragma once
 
 #include "graph/device/bricks.hpp"
@@ -11,7 +11,8 @@ namespace locus::device {
 
 // What the rounds of a solve or update did.
 struct Work {
-    uint64_t rounds = 0; // launched, some at the end in vain
+    uint64_t rounds = 0;   // that had work,
+    uint64_t launched = 0; // and those beside them at the end
     uint64_t visits = 0;
     uint64_t vain = 0;   // visits that changed nothing
     uint64_t passes = 0; // over a brick's rows, in all visits
@@ -29,6 +30,7 @@ public:
 
     uint64_t bytes() const;
     const Work &work() const { return work_; }
+    uint64_t bricks_in_grid() const { return key_.count(); }
 
 private:
     Layout layout() const;

@@ -48,13 +48,15 @@ Found look() {
         return absent(LOCUS_E_UNSUPPORTED, std::string("this machine has no CUDA driver (") + loader_error() + ")");
     Handle handle(dlopen(library, RTLD_NOW | RTLD_LOCAL));
     if (!handle)
-        return absent(LOCUS_E_UNSUPPORTED, std::string("Locus' CUDA library cannot be loaded (") + loader_error() + ")");
+        return absent(LOCUS_E_UNSUPPORTED,
+                      std::string("Locus' CUDA library cannot be loaded (") + loader_error() + ")");
     using Entry = const Table *(*)();
     Entry give = nullptr;
     if (void *const symbol = dlsym(handle.get(), entry); symbol != nullptr)
         std::memcpy(&give, &symbol, sizeof give);
     if (give == nullptr)
-        return absent(LOCUS_E_UNSUPPORTED, std::string(library) + " is of another version than liblocus: it has no " + entry);
+        return absent(LOCUS_E_UNSUPPORTED,
+                      std::string(library) + " is of another version than liblocus: it has no " + entry);
     const Table *table = give();
     std::string wrong;
     if (!fits(table, wrong))

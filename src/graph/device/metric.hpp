@@ -22,9 +22,9 @@ inline uint32_t classes_of(const graph::Grid &grid) {
 class Operands {
 public:
     explicit Operands(const graph::Graph &graph)
-        : graph_(graph), impassable_(graph.rule() == LOCUS_WEIGHT_MEAN_STIFFNESS
-                                         ? std::numeric_limits<float>::quiet_NaN()
-                                         : std::numeric_limits<float>::infinity()) {}
+        : graph_(graph),
+          impassable_(graph.rule() == LOCUS_WEIGHT_MEAN_STIFFNESS ? std::numeric_limits<float>::quiet_NaN()
+                                                                  : std::numeric_limits<float>::infinity()) {}
     float impassable() const { return impassable_; }
     float operator()(uint64_t voxel) const {
         const float operand = graph_.operand().of<float>(graph_.materials()[voxel]);

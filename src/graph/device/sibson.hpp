@@ -54,8 +54,8 @@ struct Sibson {
     uint32_t label_bits;
     const uint64_t *queries; // voxels, each reached and at a distance above 0
     uint32_t query_count;
-    uint32_t *taken; // 0 before
-    uint64_t margin; // voxels around a query that its window holds
+    uint32_t *taken;             // 0 before
+    uint64_t margin;             // voxels around a query that its window holds
     SibsonScratch<Word> scratch; // of block 0; the others' follow
     Answer *answers;
     Stolen *counts;

@@ -1,6 +1,7 @@
-// The interface between liblocus and a library that runs its kernels, liblocus_cuda.so: one function, whose name carries
-// the version, gives a table of plain functions. Both libraries must be of one build: bodies of kernels are handed over
-// as they lie in memory. No exception crosses it; a failed call returns a status of locus/status.h and says why.
+// The interface between liblocus and a library that runs its kernels, liblocus_cuda.so: one function, whose name
+// carries the version, gives a table of plain functions. Both libraries must be of one build: bodies of kernels are
+// handed over as they lie in memory. No exception crosses it; a failed call returns a status of locus/status.h and says
+// why.
 #pragma once
 
 #include <locus/status.h>

@@ -52,8 +52,8 @@ struct Export {
     LOCUS_HD uint64_t count() const { return bricks.layout.dims[0] * bricks.layout.dims[1] * planes; }
     LOCUS_HD void operator()(uint64_t i) const {
         const uint64_t row = i / bricks.layout.dims[0];
-        const Word word = bricks.words[bricks.layout.address(
-            i % bricks.layout.dims[0], row % bricks.layout.dims[1], z + row / bricks.layout.dims[1])];
+        const Word word = bricks.words[bricks.layout.address(i % bricks.layout.dims[0], row % bricks.layout.dims[1],
+                                                             z + row / bricks.layout.dims[1])];
         dense[i] = word < bricks.beyond ? word : unreached;
     }
 };

@@ -177,9 +177,7 @@ private:
         LOCUS_UNROLL
         for (unsigned i = 0; i < per_thread; ++i) {
             const unsigned voxel = thread + threads * i;
-            const uint64_t at = uint64_t{s.brick} * kVoxels + voxel;
-            local.first[i] = load_shared(&bricks.words[at]);
-            local.open[i] = bricks.open != nullptr ? bricks.open[at] : ~0u;
+            local.open[i] = bricks.open != nullptr ? bricks.open[uint64_t{s.brick} * kVoxels + voxel] : ~0u;
         }
     }
 
@@ -193,6 +191,8 @@ private:
             if ((active >> voxel / kSide & 1) == 0)
                 continue;
             const unsigned cell = cell_of(voxel);
+            if (pass == 0) // in which all rows are active
+                local.first[i] = s.cells.word[cell];
             local.best[i] = bricks.open == nullptr ? smallest_offer<false>(s, cell, ~0u)
                                                    : smallest_offer<true>(s, cell, local.open[i]);
         }
@@ -203,18 +203,18 @@ private:
         LOCUS_UNROLL
         for (int dz = -1; dz <= 1; ++dz)
             LOCUS_UNROLL
-            for (int dy = -1; dy <= 1; ++dy)
-                LOCUS_UNROLL
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const unsigned axes = axes_of(dx, dy, dz), moved = moves(axes);
-                    if (moved == 0 || moved > bricks.classes)
-                        continue;
-                    if (cut && (open >> number_of(dx, dy, dz) & 1) == 0)
-                        continue;
-                    const Word offered = Cells::offer(s.cells, rule, label_bits, beside(cell, dx, dy, dz), cell, axes);
-                    if (offered < best[moved - 1])
-                        best[moved - 1] = offered;
-                }
+        for (int dy = -1; dy <= 1; ++dy)
+            LOCUS_UNROLL
+        for (int dx = -1; dx <= 1; ++dx) {
+            const unsigned axes = axes_of(dx, dy, dz), moved = moves(axes);
+            if (moved == 0 || moved > bricks.classes)
+                continue;
+            if (cut && (open >> number_of(dx, dy, dz) & 1) == 0)
+                continue;
+            const Word offered = Cells::offer(s.cells, rule, label_bits, beside(cell, dx, dy, dz), cell, axes);
+            if (offered < best[moved - 1])
+                best[moved - 1] = offered;
+        }
         return nearest(s, best, cell);
     }
     LOCUS_HD Word nearest(const Shared &s, const Word (&best)[3], unsigned cell) const {
@@ -280,18 +280,17 @@ private:
             LOCUS_UNROLL
             for (int dz = -1; dz <= 1; ++dz)
                 LOCUS_UNROLL
-                for (int dy = -1; dy <= 1; ++dy)
-                    LOCUS_UNROLL
-                    for (int dx = -1; dx <= 1; ++dx) {
-                        const unsigned axes = axes_of(dx, dy, dz), moved = moves(axes);
-                        if (moved == 0 || moved > bricks.classes || !changed_at(s, at, dx, dy, dz))
-                            continue;
-                        any = true;
-                        const Word offered =
-                            Cells::offer(s.cells, rule, label_bits, beside(cell, dx, dy, dz), cell, axes);
-                        if (offered < best[moved - 1])
-                            best[moved - 1] = offered;
-                    }
+            for (int dy = -1; dy <= 1; ++dy)
+                LOCUS_UNROLL
+            for (int dx = -1; dx <= 1; ++dx) {
+                const unsigned axes = axes_of(dx, dy, dz), moved = moves(axes);
+                if (moved == 0 || moved > bricks.classes || !changed_at(s, at, dx, dy, dz))
+                    continue;
+                any = true;
+                const Word offered = Cells::offer(s.cells, rule, label_bits, beside(cell, dx, dy, dz), cell, axes);
+                if (offered < best[moved - 1])
+                    best[moved - 1] = offered;
+            }
             if (!any)
                 continue;
             const Word key = raising ? Word{0} : nearest(s, best, cell);
@@ -325,7 +324,8 @@ private:
     }
 
     LOCUS_HD static constexpr unsigned beside(unsigned cell, int dx, int dy, int dz) {
-        return static_cast<unsigned>(static_cast<int>(cell) + dx + static_cast<int>(kHalo) * (dy + static_cast<int>(kHalo) * dz));
+        return static_cast<unsigned>(static_cast<int>(cell) + dx +
+                                     static_cast<int>(kHalo) * (dy + static_cast<int>(kHalo) * dz));
     }
 };
 

@@ -14,7 +14,7 @@ using graph::NaturalJob;
 using graph::RawShare;
 using graph::RowPile;
 
-constexpr uint64_t first_margin = 12;         // voxels around a query that its window holds, until that proves too small
+constexpr uint64_t first_margin = 12; // voxels around a query that its window holds, until that proves too small
 constexpr uint64_t queries_at_once = 1 << 16; // of a launch
 constexpr uint64_t labels_expected = 16;      // that a query steals from, on average
 
@@ -63,8 +63,8 @@ private:
         for (uint64_t v = 0; v < voxels; ++v) {
             values[v] = operands(v);
             const bool reached = job_.field.reached(v);
-            words[v] = static_cast<Word>(
-                reached ? graph_.layout().pack(job_.field.distance(v), job_.field.label(v)) : graph_.layout().unreached());
+            words[v] = static_cast<Word>(reached ? graph_.layout().pack(job_.field.distance(v), job_.field.label(v))
+                                                 : graph_.layout().unreached());
             if (reached)
                 labels_ = std::max<uint64_t>(labels_, job_.field.label(v) + uint64_t{1});
         }
@@ -141,9 +141,14 @@ private:
         cells_ = device_.allocate<uint32_t>(blocks_ * window * 4);
         by_label_ = device_.allocate<uint32_t>(blocks_ * labels_ * 2);
         const uint64_t all = blocks_ * window;
-        scratch_ = {reach_.get(),           cells_.get(),     {cells_.get() + all, cells_.get() + 2 * all},
-                    cells_.get() + 3 * all, by_label_.get(), by_label_.get() + blocks_ * labels_,
-                    window,                 labels_};
+        scratch_ = {reach_.get(),
+                    cells_.get(),
+                    {cells_.get() + all, cells_.get() + 2 * all},
+                    cells_.get() + 3 * all,
+                    by_label_.get(),
+                    by_label_.get() + blocks_ * labels_,
+                    window,
+                    labels_};
         fill(reach_, Sibson<Word, Rule>::kFar);
         fill(cells_, uint32_t{0});
         fill(by_label_, uint32_t{0});

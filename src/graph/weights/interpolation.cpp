@@ -84,8 +84,9 @@ Rows Interpolation::compute(std::span<const uint64_t> rows, const Rows *base) co
             progress);
         return assemble(voxels_.size(), {&pile, 1});
     }
-    const NaturalJob job{field,           options_.method, options_.max_per_row, options_.batch_bytes,
-                         graph.threads(), graph.simd(),    voxels_,              rows};
+    const NaturalJob job{
+        field, options_.method, options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(), voxels_,
+        rows};
     return assemble(voxels_.size(), natural_rows_on_backend(job, progress), base);
 }
 

@@ -41,6 +41,7 @@ void add_updates(Cases &cases);
 void add_weights(Cases &cases);
 void add_thesis_chapter2(Cases &cases);
 void add_thesis_weights(Cases &cases);
+void add_gpu(Cases &cases);
 void add_thesis_chapter3(Cases &cases);
 void add_thesis_databases(Cases &cases);
 

@@ -46,6 +46,7 @@ Cases all_cases() {
     add_weights(cases);
     add_thesis_chapter2(cases);
     add_thesis_weights(cases);
+    add_gpu(cases);
     add_thesis_chapter3(cases);
     add_thesis_databases(cases);
     return cases;

@@ -22,10 +22,12 @@ Solver::Solver(const Volume &volume, const Engine &engine) : engine_(engine), vo
     }
     options.word_bits = engine.word_bits;
     options.threads = engine.threads;
+    options.backend = engine.backend;
     graph_ = make_graph(options, volume.compliance.data());
     locus_diagram_options how;
     need(locus_diagram_options_init(&how, sizeof how));
     how.engine = engine.engine;
+    std::copy(engine.grain.begin(), engine.grain.end(), how.grain);
     diagram_ = make_diagram(graph_, how);
     need(locus_diagram_add_seeds(diagram_.get(), volume.seeds.data(), volume.seeds.size()));
 }
@@ -37,7 +39,9 @@ double Solver::solve(Notes &notes) {
         const double cpu = timed([&] { need(locus_diagram_solve(diagram_.get(), nullptr, nullptr)); });
         const locus_diagram_stats did = stats();
         const double wall = did.seconds_import + did.seconds_solve + did.seconds_export;
-        times.push_back(1e3 * (engine_.threads == 1 ? cpu * did.seconds_solve / wall : did.seconds_solve));
+        times.push_back(1e3 * (engine_.threads == 1 && engine_.backend == LOCUS_BACKEND_CPU
+                                   ? cpu * did.seconds_solve / wall
+                                   : did.seconds_solve));
         imports.push_back(1e3 * did.seconds_import);
         exports.push_back(1e3 * did.seconds_export);
     } while (wall_seconds() - start < shortest_run);
@@ -82,6 +86,21 @@ uint32_t Solver::edge_weight(uint64_t u, uint64_t v) const {
     uint64_t steps = 0;
     need(locus_graph_edge_weight(graph_.get(), u, v, &steps));
     return static_cast<uint32_t>(steps);
+}
+
+bool has_gpu(std::string *why) {
+    locus_graph_options options;
+    need(locus_graph_options_init(&options, sizeof options));
+    options.dims[0] = options.dims[1] = options.dims[2] = 1;
+    options.backend = LOCUS_BACKEND_CUDA;
+    const float material = 1;
+    locus_graph *graph = nullptr;
+    const bool there = locus_graph_create(&options, &material, &graph) == LOCUS_OK;
+    locus_graph_destroy(graph);
+    if (!there && why != nullptr) {
+        *why = locus_last_error();
+    }
+    return there;
 }
 
 const char *simd_name(uint32_t simd) {

@@ -15,6 +15,8 @@ struct Engine {
     uint32_t engine = LOCUS_ENGINE_AUTO;
     uint32_t threads = 1;
     uint32_t word_bits = LOCUS_WORD_32;
+    uint32_t backend = LOCUS_BACKEND_CPU;
+    std::array<uint32_t, 3> grain{8, 4, 4}; ///< of LOCUS_ENGINE_COMPACT
 };
 
 /// A volume made ready for one engine.
@@ -43,6 +45,9 @@ private:
     Graph graph_;
     Diagram diagram_;
 };
+
+/// Whether there is a GPU that the library can use; `why` (may be null) tells why not.
+bool has_gpu(std::string *why = nullptr);
 
 /// The name of an instruction set of graph.h.
 const char *simd_name(uint32_t simd);

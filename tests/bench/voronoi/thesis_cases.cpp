@@ -50,6 +50,16 @@ void table_case(Row &row, const Printed &line) {
     Notes notes;
     row.extras["relax_ms"] = relax.solve(notes);
     row.extras["relax_iterations"] = static_cast<double>(relax.stats().iterations);
+    if (has_gpu()) {
+        Solver base(volume, {"base", LOCUS_ENGINE_RELAX, 1, words, LOCUS_BACKEND_CUDA});
+        Solver bricks(volume, {"gpu", LOCUS_ENGINE_BRICKS, 1, words, LOCUS_BACKEND_CUDA});
+        for (Solver *const gpu : {&base, &bricks}) {
+            gpu->solve(notes); // the first one waits for the device
+            row.extras[gpu == &base ? "gpu_base_ms" : "gpu_ms"] = gpu->solve(notes);
+            row.check(same_diagram(*gpu, relax), "another diagram on the GPU");
+        }
+        row.extras["gpu_base_iterations"] = static_cast<double>(base.stats().iterations);
+    }
     row.extras["thesis_cpu_ms"] = line.cpu_ms;
     row.extras["thesis_gpu_ms"] = line.gpu_ms;
     row.extras["thesis_gpu_iterations"] = line.gpu_iterations;

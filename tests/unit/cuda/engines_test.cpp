@@ -52,9 +52,10 @@ void expect_equal(const Problem &problem, const std::string &what) {
         ++emulated::settings().seed;
         Report report;
         EXPECT_EQ(on_device(form, problem, &report), expected) << form.name << ", " << what;
-        const auto reached =
-            std::count_if(expected.begin(), expected.end(), [&](uint64_t w) { return problem.graph.layout().reached(w); });
-        EXPECT_EQ(report.clipped, static_cast<uint64_t>(reached) < problem.graph.passable_voxels()) << form.name << what;
+        const auto reached = std::count_if(expected.begin(), expected.end(),
+                                           [&](uint64_t w) { return problem.graph.layout().reached(w); });
+        EXPECT_EQ(report.clipped, static_cast<uint64_t>(reached) < problem.graph.passable_voxels())
+            << form.name << what;
     }
 }
 
@@ -81,7 +82,8 @@ std::vector<float> materials_of(const std::string &topology, const std::array<ui
 
 TEST(CudaEngines, EqualTheHeapOnEveryTopologyAndShape) {
     uint32_t seed = 0;
-    for (const auto &dims : {std::array<uint64_t, 3>{17, 18, 19}, {8, 8, 8}, {1, 9, 33}, {40, 1, 1}, {25, 16, 3}, {1, 1, 1}})
+    for (const auto &dims :
+         {std::array<uint64_t, 3>{17, 18, 19}, {8, 8, 8}, {1, 9, 33}, {40, 1, 1}, {25, 16, 3}, {1, 1, 1}})
         for (const std::string topology : {"constant", "gradient", "noise", "maze", "apart"})
             for (const uint32_t word : {32u, 64u}) {
                 auto options = options_for(dims[0], dims[1], dims[2]);

@@ -21,9 +21,9 @@ std::vector<uint64_t> wide(const Words &words) {
 class Edited {
 public:
     Edited(const locus_graph_options &options, uint32_t seed, uint64_t cutoff_steps)
-        : random_(seed), graph_(options, random_materials(options.dims[0] * options.dims[1] * options.dims[2], 0.3, 5.5,
-                                                          0.15, seed)
-                                             .data()),
+        : random_(seed),
+          graph_(options,
+                 random_materials(options.dims[0] * options.dims[1] * options.dims[2], 0.3, 5.5, 0.15, seed).data()),
           engine_(device::make_engine(emulated::table(), LOCUS_ENGINE_BRICKS, {}, nullptr)) {
         if (cutoff_steps > 0)
             cutoff_ = cutoff_steps * graph_.smallest_weight();
