@@ -36,12 +36,12 @@ typedef struct locus_graph locus_graph;
 #define LOCUS_WORD_64 64
 
 /* Where diagrams and Sibson's weights are computed; the results are the same, bit for bit. The CUDA backend is
- * liblocus_cuda.so, of the same build as this library and found as the loader finds libraries or beside it; it needs an
- * NVIDIA driver and a GPU of compute capability 8.0 or higher, takes the CUDA device that is the calling thread's, and
- * has every rule but LOCUS_WEIGHT_CALLER.
- * AUTO: CUDA where all that is there, the CPU otherwise; and when the GPU fails or has no memory left, the CPU goes on.
- * CUDA, asked for and not there, is LOCUS_E_UNSUPPORTED with the reason; where the GPU fails later, that call returns
- * LOCUS_E_DEVICE or LOCUS_E_MEMORY, and the next one begins anew. */
+ * liblocus_cuda.so, of the same build as this library, found as the loader finds libraries or beside it; it needs an
+ * NVIDIA driver and a GPU of compute capability 8.0 or higher, takes the calling thread's CUDA device, and has every
+ * rule but LOCUS_WEIGHT_CALLER. AUTO: CUDA where all that is there and the grid has 65,536 voxels or more, else the
+ * CPU; and when the GPU fails or has no memory left, the CPU goes on. CUDA, asked for and not there, is
+ * LOCUS_E_UNSUPPORTED with the reason; where the GPU fails later, that call returns LOCUS_E_DEVICE or LOCUS_E_MEMORY,
+ * and the next one begins anew. */
 #define LOCUS_BACKEND_AUTO 0
 #define LOCUS_BACKEND_CPU 1
 #define LOCUS_BACKEND_CUDA 2

@@ -46,12 +46,15 @@ uint32_t label_bits(const locus_graph_options &options) {
     return static_cast<uint32_t>(std::bit_width((left ? default_max_seeds_32 : options.max_seeds) - 1));
 }
 
+// On smaller grids the CPU is done before a GPU has begun.
+constexpr uint64_t smallest_for_cuda = 1 << 16;
+
 // The backend that the options mean. Throws LOCUS_E_UNSUPPORTED or LOCUS_E_DEVICE where it was asked for and is not
 // there.
-uint32_t choose_backend(const locus_graph_options &options) {
-    if (options.backend == LOCUS_BACKEND_CPU)
-        return LOCUS_BACKEND_CPU;
+uint32_t choose_backend(const locus_graph_options &options, uint64_t voxels) {
     const bool forced = options.backend == LOCUS_BACKEND_CUDA;
+    if (options.backend == LOCUS_BACKEND_CPU || (!forced && voxels < smallest_for_cuda))
+        return LOCUS_BACKEND_CPU;
     if (options.weight_rule == LOCUS_WEIGHT_CALLER) {
         if (forced)
             fail(LOCUS_E_UNSUPPORTED, "options->backend is LOCUS_BACKEND_CUDA, which has no LOCUS_WEIGHT_CALLER");
@@ -81,7 +84,7 @@ Graph::Graph(const locus_graph_options &options, const float *material)
       grid_(options.dims, options.spacing, options.connectivity), operand_{options.weight_rule, options.material},
       threads_(options.threads == 0 ? default_threads() : options.threads), backend_(LOCUS_BACKEND_CPU) {
     check_options(options);
-    backend_ = choose_backend(options);
+    backend_ = choose_backend(options, grid_.voxels());
     simd_ = simd_choose(options.simd);
     const float nothing = std::numeric_limits<float>::quiet_NaN();
     materials_.assign(grid_.voxels(), nothing);

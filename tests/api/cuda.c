@@ -1,7 +1,7 @@
 /* The CUDA backend through the C interface: every form of the solver, updates and Sibson's weights against the CPU's.
  * Without a GPU it tells why, and forcing the backend must say the same.
  * cuda [rounds [words]]: how many random graphs are compared; `words` must stand in the reason why there is no GPU;
- * "GPU" asks for one. */
+ * "GPU" asks for one, and "fails" for one that fails before a diagram is solved. */
 #include "check.h"
 
 #include <locus/locus.h>
@@ -227,34 +227,82 @@ static void compare(int rounds) {
     printf("%d random graphs, the same on the GPU and the CPU\n", rounds);
 }
 
-/* What is the same with and without a GPU. */
-static void automatic(int gpu) {
+/* The graph of one box of `voxels` * 1 * 1, automatic backend. */
+static locus_graph *automatic_graph(uint64_t voxels) {
     locus_graph_options options;
-    locus_diagram_options drawing;
-    locus_graph_info info;
     locus_graph *graph = NULL;
-    locus_diagram *diagram = NULL;
-    const float material[8] = {1, 2, 1, 2, 1, 1, 1, 1};
+    float *material = malloc(voxels * sizeof *material);
+    uint64_t i;
+    if (material == NULL)
+        exit(2);
+    for (i = 0; i < voxels; ++i)
+        material[i] = (float)(1 + i % 3);
     WORKS(locus_graph_options_init(&options, sizeof options));
-    options.dims[0] = options.dims[1] = options.dims[2] = 2;
+    options.dims[0] = voxels / 4;
+    options.dims[1] = options.dims[2] = 2;
+    options.log = log_line;
     WORKS(locus_graph_create(&options, material, &graph));
+    free(material);
+    return graph;
+}
+
+static uint32_t backend_of(const locus_graph *graph) {
+    locus_graph_info info;
     info.struct_size = sizeof info;
     WORKS(locus_graph_get_info(graph, &info));
-    CHECK(info.backend == (gpu ? LOCUS_BACKEND_CUDA : LOCUS_BACKEND_CPU));
+    return info.backend;
+}
+
+/* A GPU that fails in the middle: the CPU goes on, and says so once. */
+static void falls_back(void) {
+    locus_graph *graph = automatic_graph(65536);
+    locus_diagram *diagram = NULL;
+    locus_diagram_stats stats;
+    locus_weights *weights = NULL;
+    const locus_seed seed = {1, 1, 1, 0.0, 7, 0};
+    const uint64_t voxel = 100;
+    uint32_t label = 0;
+    const locus_voxel_box last = {{16383, 1, 1}, {1, 1, 1}};
+    CHECK(backend_of(graph) == LOCUS_BACKEND_CUDA);
+    WORKS(locus_diagram_create(graph, NULL, &diagram));
+    WORKS(locus_diagram_add_seeds(diagram, &seed, 1));
+    WORKS(locus_diagram_solve(diagram, NULL, NULL));
+    stats.struct_size = sizeof stats;
+    WORKS(locus_diagram_get_stats(diagram, &stats));
+    CHECK(stats.backend == LOCUS_BACKEND_CPU && stats.engine == LOCUS_ENGINE_BRICKS && stats.reached == 65536);
+    WORKS(locus_diagram_labels(diagram, &last, &label, 1));
+    CHECK(label == 7 && warnings == 1);
+    WORKS(locus_weights_create_for(diagram, NULL, &voxel, 1, &weights));
+    CHECK(warnings == 2);
+    locus_weights_destroy(weights);
+    locus_diagram_destroy(diagram);
+    locus_graph_destroy(graph);
+}
+
+/* What is the same with and without a GPU. */
+static void automatic(int gpu) {
+    locus_diagram_options drawing;
+    locus_diagram *diagram = NULL;
+    locus_graph *graph = automatic_graph(8);
+    CHECK(backend_of(graph) == LOCUS_BACKEND_CPU);
+    locus_graph_destroy(graph);
+    graph = automatic_graph(65536);
+    CHECK(backend_of(graph) == (gpu ? LOCUS_BACKEND_CUDA : LOCUS_BACKEND_CPU));
     WORKS(locus_diagram_options_init(&drawing, sizeof drawing));
     drawing.reserved0 = 1;
     REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "reserved0 is 1");
     drawing.reserved0 = 0;
     drawing.engine = LOCUS_ENGINE_COMPACT;
-    drawing.grain[1] = 0;
-    REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "grain[1] is 0, outside 1..1024");
-    drawing.grain[1] = 1025;
-    REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "grain[1] is 1025");
-    drawing.grain[1] = 1;
-    if (gpu)
+    if (gpu) {
+        drawing.grain[1] = 0;
+        REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "grain[1] is 0, outside 1..1024");
+        drawing.grain[1] = 1025;
+        REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_ARGUMENT, "grain[1] is 1025");
+        drawing.grain[1] = 1;
         WORKS(locus_diagram_create(graph, &drawing, &diagram));
-    else
+    } else {
         REFUSES(locus_diagram_create(graph, &drawing, &diagram), LOCUS_E_UNSUPPORTED, "LOCUS_ENGINE_COMPACT");
+    }
     locus_diagram_destroy(diagram);
     locus_graph_destroy(graph);
 }
@@ -271,6 +319,10 @@ int main(int argc, char **argv) {
     locus_graph *graph = NULL;
     const float material = 1;
     locus_status status;
+    if (strcmp(words, "fails") == 0) {
+        falls_back();
+        return check_result();
+    }
     WORKS(locus_graph_options_init(&options, sizeof options));
     options.dims[0] = options.dims[1] = options.dims[2] = 1;
     options.backend = LOCUS_BACKEND_CUDA;

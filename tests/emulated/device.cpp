@@ -41,6 +41,8 @@ bool fails(Message *why, int32_t &status) {
     int64_t &left = settings().calls_left;
     if (left < 0 || left-- > 0)
         return false;
+    if (settings().keeps_failing)
+        left = 0;
     status = say(why, settings().failure, "the emulated device was told to fail");
     return true;
 }

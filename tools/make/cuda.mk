@@ -52,12 +52,14 @@ $(OUT)/tests/%/libcuda.so.1:
 $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION): $(OUT)/tests/stale/libcuda.so.1
 	@cp $< $@
 
-.PHONY: api-cuda-emulated api-cuda-stale
+.PHONY: api-cuda-emulated api-cuda-stale api-cuda-failing
 api-cuda-emulated: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) $< 24 GPU
 api-cuda-stale: $(OUT)/tests/api/cuda $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(OUT)/tests/stale $< 1 'of another version than liblocus'
-api: api-cuda-emulated api-cuda-stale
+api-cuda-failing: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
+	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) EMULATED_CALLS=40 $< 1 fails
+api: api-cuda-emulated api-cuda-stale api-cuda-failing
 
 # One command for a machine with nvcc, g++ and a GPU, but no packages and no network.
 .PHONY: gpu-check gpu-check-here cuda-count

@@ -1,5 +1,5 @@
-// Finding the library that runs kernels. It is looked for only where a driver is; a library without a GPU to run on is
-// closed again, and one that has been used stays: the driver's threads do not end with it.
+// Finding the library that runs kernels. It is looked for only where a driver is, and once it was used it stays: the
+// driver's threads do not end with it.
 #include "graph/device/device.hpp"
 
 #include <dlfcn.h>
@@ -61,13 +61,13 @@ Found look() {
     std::string wrong;
     if (!fits(table, wrong))
         return absent(LOCUS_E_UNSUPPORTED, std::string(library) + " is of another build than liblocus: " + wrong);
+    static_cast<void>(handle.release());
     Found found{table, LOCUS_OK, "", {}};
     Queue *queue = nullptr;
     Message why{};
     if (const int32_t status = table->open(&queue, &found.machine, &why); status != LOCUS_OK)
         return absent(status, why.text);
     table->close(queue);
-    static_cast<void>(handle.release());
     return found;
 }
 
