@@ -76,6 +76,7 @@ class DiagramStats:
     bytes: int
     engine: int
     threads: int
+    backend: int
 
 
 @dataclass(frozen=True)

@@ -141,6 +141,7 @@ class Engine(IntEnum):
     BUCKET = 2
     RELAX = 3
     BRICKS = 4
+    COMPACT = 5
 
 
 class Metric(IntEnum):
