@@ -26,6 +26,8 @@ test('what goes wrong is told, in the words of the server', async (t) => {
   await page.keyboard.press('s');
   await page.waitForSelector('.toast.error');
   assert.equal(await page.textContent('.toast p'), 'too many <b>questions</b>');
+  await page.unroute('**/count?*'); // else the next question brings the message back
+  await page.waitForTimeout(500);
   await page.click('.toast button');
   assert.equal(await page.locator('.toast').count(), 0);
 });
@@ -45,7 +47,10 @@ test('a link shows the same view, time, selection and settings', async (t) => {
   await until(page, () => !location.hash.includes('view=7/'));
   await page.waitForTimeout(1500);
   const again = await open(t, server.url, { hash: new URL(page.url()).hash });
-  assert.deepEqual(await state(again), await state(page));
+  const [{ view, ...rest }, shown] = [await state(page), await state(again)];
+  assert.deepEqual({ ...shown, view: null }, { ...rest, view: null });
+  assert.equal(shown.view.zoom, view.zoom);
+  assert.ok(Math.hypot(shown.view.latitude - view.latitude, shown.view.longitude - view.longitude) < 2e-5);
   assert.notDeepEqual((await state(again)).view, first.view);
 });
 

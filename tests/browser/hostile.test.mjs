@@ -19,8 +19,9 @@ const TEXTS = [
   'https://example.org/picture.png',
   '{{constructor.constructor("window.broken=6")()}}',
 ];
+// A NUL would end the text of a record: it is read as a space.
 const SHOWN = [...TEXTS];
-SHOWN[7] = 'one\u2400two\u2407three\u241b[31mfour\u2421';
+SHOWN[7] = 'one two\u2407three\u241b[31mfour\u2421';
 SHOWN[8] = 'from \ufffdright to left\ufffd';
 SHOWN[9] = 'zero\ufffdwidth';
 
