@@ -7,10 +7,10 @@
 namespace locus::device::emulated {
 
 struct Settings {
-    uint64_t seed = 1;       // of the orders
-    uint32_t threads = 1;    // host threads that run the items and blocks of a launch
-    uint32_t blocks = 3;     // a kernel's resident blocks
-    int64_t calls_left = -1; // after so many calls that may fail one fails; negative: none does
+    uint64_t seed = 1;          // of the orders
+    uint32_t threads = 1;       // host threads that run the items and blocks of a launch
+    uint32_t blocks = 3;        // a kernel's resident blocks
+    int64_t calls_left = -1;    // after so many calls that may fail one fails; negative: none does
     bool keeps_failing = false; // all calls after that one
     int32_t failure = LOCUS_E_DEVICE;
     uint64_t memory = UINT64_MAX; // bytes

@@ -163,9 +163,8 @@ void add_gpu(Cases &cases) {
     cases.push_back({"gpu.sibson.plate.s20", "ms", {}, sibson_case});
     const std::pair<uint64_t, double> batches[] = {{1, 9.746}, {10, 12.414}, {100, 29.537}, {150, 34.807}};
     for (const auto &[size, thesis_ms] : batches) {
-        cases.push_back({"gpu.table2.2.b" + std::to_string(size), "ms", {}, [=](Row &row) {
-                             batch_case(row, size, thesis_ms);
-                         }});
+        cases.push_back(
+            {"gpu.table2.2.b" + std::to_string(size), "ms", {}, [=](Row &row) { batch_case(row, size, thesis_ms); }});
     }
     const std::array<uint32_t, 3> grains[] = {{0, 0, 0}, {1, 1, 1}, {4, 1, 1}, {1, 1, 4}, {16, 1, 1},
                                               {2, 2, 2}, {4, 4, 4}, {8, 4, 4}, {8, 8, 8}, {32, 4, 4}};
