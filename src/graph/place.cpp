@@ -3,6 +3,7 @@
 #include "graph/diagram.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 
 namespace locus::graph {
@@ -115,8 +116,9 @@ void sample_by(const Graph &metric, std::vector<Placed> &seeds, uint64_t count, 
         take();
     }
     std::vector<Source> sources = sources_of(metric, seeds);
-    for (bool anew = true; done < count; anew = false) {
-        sampler.measure(sources, anew);
+    bool anew = true;
+    while (done < count) {
+        sampler.measure(sources, std::exchange(anew, false));
         take();
         sources.push_back({seeds.back().voxel, 0, static_cast<uint32_t>(sources.size())});
     }
