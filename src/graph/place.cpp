@@ -3,8 +3,8 @@
 #include "graph/diagram.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <cmath>
+#include <utility>
 
 namespace locus::graph {
 namespace {

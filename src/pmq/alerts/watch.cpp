@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace locus::pmq {
 namespace {
@@ -113,7 +114,8 @@ void Watch::find_candidates(const Activity &activity) noexcept {
         const unsigned level = activity.level(node);
         if (level < options_.zoom_from || activity.present(node) < options_.minimum)
             continue;
-        for (const uint32_t kind : {LOCUS_ALERT_JUMP, LOCUS_ALERT_RATE, LOCUS_ALERT_SHARE})
+        for (const uint32_t kind :
+             std::initializer_list<uint32_t>{LOCUS_ALERT_JUMP, LOCUS_ALERT_RATE, LOCUS_ALERT_SHARE})
             if (candidates_.size() < most_candidates && stands_out(activity, node, kind) &&
                 deepest(activity, node, kind))
                 candidates_.push_back({node, kind, activity.present(node) - activity.expected(node).mean});
