@@ -22,7 +22,7 @@ const look = (zoom) => ({ map: state.colours, scale: state.scale, bins: state.bi
 
 async function scale() {
   try {
-    const z = map.getZoom();
+    const z = Math.round(map.getZoom()); // in flight it is between two
     legend.show(await get('/scale', { z, ...look(z) }));
   } catch (error) {
     report(error);

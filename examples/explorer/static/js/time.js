@@ -109,12 +109,13 @@ export function start() {
   find('pause').addEventListener('click', togglePause);
   find('step-back').addEventListener('click', () => step(-1));
   find('step-forward').addEventListener('click', () => step(1));
-  find('time').addEventListener('input', () => (sliding = true));
-  find('time').addEventListener('change', () => (sliding = false));
-  find('time').addEventListener('input', debounced(40, ({ target }) => {
-    const place = Number(target.value);
-    set({ at: place >= STEPS ? null : Math.round(stream.oldest + span() * place / STEPS) });
-  }));
+  const slider = find('time');
+  const move = debounced(40, (place) => set({ at: place >= STEPS ? null : Math.round(stream.oldest + span() * place / STEPS) }));
+  slider.addEventListener('input', () => {
+    sliding = true;
+    move(Number(slider.value)); // by then a tick may have moved it
+  });
+  slider.addEventListener('change', () => (sliding = false));
   on(['at', 'window'], settings);
   on(['box'], () => (asked = -Infinity));
   settings();
