@@ -1,5 +1,5 @@
 // The default alerts find the bursts that the demo's generator plants: those, and no others.
-#include "stream/generator.hpp"
+#include "common/generator.hpp"
 #include "stream/window.hpp"
 
 #include <locus/alerts.h>
