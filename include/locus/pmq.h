@@ -163,16 +163,21 @@ typedef int32_t (*locus_visit_fn)(const void *record, void *user);
 typedef struct locus_pmq_query {
     uint64_t struct_size;
     uint32_t region;        /* LOCUS_REGION_; default LOCUS_REGION_ALL */
-    uint32_t reserved0;     /* 0 */
+    uint32_t expired;       /* 1: records that have expired and have not left the store yet, too; default 0 */
     locus_box box;          /* for LOCUS_REGION_BOX */
     int64_t time_from;      /* microseconds, included; default INT64_MIN */
     int64_t time_to;        /* microseconds, included; default INT64_MAX */
     locus_filter_fn filter; /* default NULL */
     void *filter_user;
-    /* Ask this snapshot of the same store instead of the present; default NULL. Not for locus_pmq_erase. */
+    /* Ask this snapshot of the same store instead of the present; default NULL. Not for locus_pmq_erase, nor is
+     * `expired`. */
     const locus_pmq_snapshot *snapshot;
     locus_circle circle;   /* for LOCUS_REGION_CIRCLE */
     locus_polygon polygon; /* for LOCUS_REGION_POLYGON; read during the call only */
+    /* Receives, before the first record is looked at, how many records had left the store by the moment of the answer:
+     * that many have been handed to the sink or are going to be, and what is handed over behind them was still in the
+     * store. So a place that keeps what the sink takes over and a query with `expired` make one answer; default NULL */
+    uint64_t *left;
 } locus_pmq_query;
 
 /* What makes a record good for locus_pmq_topk: near to a place, and young. */
@@ -358,6 +363,38 @@ LOCUS_API locus_status locus_pmq_topk(const locus_pmq *pmq, const locus_pmq_scor
 LOCUS_API locus_status locus_pmq_nearest(const locus_pmq *pmq, double latitude, double longitude,
                                          const locus_pmq_query *query, size_t k, void *records, double *distances,
                                          size_t *count) LOCUS_NOEXCEPT;
+
+/* A query made ready for records that lie elsewhere, in a file or a database: it tells which keys to look at, and of
+ * each record there whether the query selects it. */
+typedef struct locus_pmq_selection locus_pmq_selection;
+
+/* Keys first..last, both included. `inside` is 1 when every place with such a key lies in the region. */
+typedef struct locus_key_range {
+    uint64_t first, last;
+    uint32_t inside;
+    uint32_t reserved0; /* 0 */
+} locus_key_range;
+
+/* Make `query` (NULL: everything) ready for records of a layout, LOCUS_RECORD_. The query is copied, its polygon too;
+ * `snapshot`, `expired` and `left` mean nothing here. `*selection` is the caller's, to be ended with
+ * locus_pmq_selection_destroy; NULL on any error. Errors: LOCUS_E_ARGUMENT, LOCUS_E_MEMORY. Any thread. Since 0.1. */
+LOCUS_API locus_status locus_pmq_selection_create(const locus_pmq_query *query, uint32_t record,
+                                                  locus_pmq_selection **selection) LOCUS_NOEXCEPT;
+
+/* End a selection. NULL is fine. Since 0.1. */
+LOCUS_API void locus_pmq_selection_destroy(locus_pmq_selection *selection) LOCUS_NOEXCEPT;
+
+/* Key ranges that hold every record the query selects: disjoint, ascending, at most `capacity` >= 1 of them, and the
+ * more closely round the region the more there may be. `*count` is their number. Errors: LOCUS_E_ARGUMENT,
+ * LOCUS_E_MEMORY. Any number of threads. Since 0.1. */
+LOCUS_API locus_status locus_pmq_selection_ranges(const locus_pmq_selection *selection, locus_key_range *ranges,
+                                                  size_t capacity, size_t *count) LOCUS_NOEXCEPT;
+
+/* Does the query select this record? `*matches` is 1 or 0. `inside`: 1 if its key lies in a range that is inside, so
+ * that the region need not be asked, else 0. The filter is asked last. Errors: LOCUS_E_ARGUMENT. Any number of threads.
+ * Since 0.1. */
+LOCUS_API locus_status locus_pmq_selection_matches(const locus_pmq_selection *selection, const void *record,
+                                                   uint32_t inside, int32_t *matches) LOCUS_NOEXCEPT;
 
 /* Store the statistics; set stats->struct_size first. Errors: LOCUS_E_ARGUMENT. Beside readers and the writer. Since
  * 0.1. */

@@ -16,7 +16,7 @@ using locus::require;
 using namespace locus::pmq;
 
 static_assert(sizeof(locus_pmq_options) == 144, "append only; then update the ABI baseline");
-static_assert(sizeof(locus_pmq_query) == 136, "append only; then update the ABI baseline");
+static_assert(sizeof(locus_pmq_query) == 144, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_score) == 48, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_stats) == 136, "append only; then update the ABI baseline");
 static_assert(LOCUS_KEY_END == locus::key_end);
@@ -181,6 +181,7 @@ locus_status locus_pmq_erase(locus_pmq *pmq, const locus_pmq_query *query, uint6
         need(pmq, "pmq");
         const Question question(query);
         require(question.snapshot() == nullptr, "query.snapshot is set: erasing is of the present");
+        require(!question.selection().expired, "query.expired is 1: erasing is of live records");
         uint64_t number = 0;
         const bool completely = pmq->store->erase(question.selection(), number);
         store_to(erased, number);

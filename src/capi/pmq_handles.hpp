@@ -18,7 +18,7 @@ struct locus_pmq_snapshot {
 namespace locus {
 
 constexpr size_t first_pmq_options_size = 144; // of locus_pmq_options, in the release that introduced it
-constexpr size_t first_query_size = 136;
+constexpr size_t first_query_size = 144;
 locus_pmq_query default_query() noexcept;
 
 // A query and the region it asks for.
@@ -29,7 +29,7 @@ public:
     Question &operator=(const Question &) = delete;
     const pmq::Selection &selection() const noexcept { return selection_; }
     const locus_pmq_snapshot *snapshot() const noexcept { return snapshot_; }
-    // What is to be asked.
+    // What is to be asked; tells the caller how many records had left by then.
     std::shared_ptr<const pmq::View> view(const locus_pmq &pmq) const;
     // The selection's region, which then lives as long as the caller wants.
     std::unique_ptr<const pmq::Region> take_region() noexcept { return std::move(region_); }
@@ -38,6 +38,7 @@ private:
     std::unique_ptr<const pmq::Region> region_;
     pmq::Selection selection_;
     const locus_pmq_snapshot *snapshot_ = nullptr;
+    uint64_t *left_ = nullptr; // where the number of records that had left goes
 };
 
 } // namespace locus

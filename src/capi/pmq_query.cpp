@@ -38,7 +38,7 @@ std::unique_ptr<const Region> region_of(const locus_pmq_query &query) {
 
 Question::Question(const locus_pmq_query *query) {
     const locus_pmq_query whole = read_options(query, default_query(), first_query_size);
-    require(whole.reserved0 == 0, "query.reserved0 is ", whole.reserved0, ", not 0");
+    require(whole.expired <= 1, "query.expired is ", whole.expired, ", not 0 or 1");
     require(whole.time_from <= whole.time_to, "query.time_from is ", whole.time_from, ", after time_to, ",
             whole.time_to);
     region_ = region_of(whole);
@@ -46,14 +46,18 @@ Question::Question(const locus_pmq_query *query) {
     selection_.times = {whole.time_from, whole.time_to};
     selection_.filter = whole.filter;
     selection_.filter_user = whole.filter_user;
+    selection_.expired = whole.expired == 1;
     snapshot_ = whole.snapshot;
+    left_ = whole.left;
 }
 
 std::shared_ptr<const View> Question::view(const locus_pmq &pmq) const {
-    if (snapshot_ == nullptr)
-        return pmq.store->view();
-    require(snapshot_->store == pmq.store, "query.snapshot is another store's");
-    return snapshot_->moment->view();
+    if (snapshot_ != nullptr)
+        require(snapshot_->store == pmq.store, "query.snapshot is another store's");
+    auto view = snapshot_ == nullptr ? pmq.store->view() : snapshot_->moment->view();
+    if (left_ != nullptr)
+        *left_ = view->left();
+    return view;
 }
 
 } // namespace locus

@@ -174,10 +174,10 @@ int main(void) {
     FIELD(locus_polygon, ring_sizes, 8);
     FIELD(locus_polygon, rings, 16);
 
-    SIZE(locus_pmq_query, 136);
+    SIZE(locus_pmq_query, 144);
     FIELD(locus_pmq_query, struct_size, 0);
     FIELD(locus_pmq_query, region, 8);
-    FIELD(locus_pmq_query, reserved0, 12);
+    FIELD(locus_pmq_query, expired, 12);
     FIELD(locus_pmq_query, box, 16);
     FIELD(locus_pmq_query, time_from, 48);
     FIELD(locus_pmq_query, time_to, 56);
@@ -186,6 +186,13 @@ int main(void) {
     FIELD(locus_pmq_query, snapshot, 80);
     FIELD(locus_pmq_query, circle, 88);
     FIELD(locus_pmq_query, polygon, 112);
+    FIELD(locus_pmq_query, left, 136);
+
+    SIZE(locus_key_range, 24);
+    FIELD(locus_key_range, first, 0);
+    FIELD(locus_key_range, last, 8);
+    FIELD(locus_key_range, inside, 16);
+    FIELD(locus_key_range, reserved0, 20);
 
     SIZE(locus_pmq_score, 48);
     FIELD(locus_pmq_score, struct_size, 0);

@@ -49,8 +49,8 @@ static void defaults(void) {
     REFUSES(locus_pmq_options_init(NULL, sizeof options), LOCUS_E_ARGUMENT, "options");
     REFUSES(locus_pmq_options_init(&options, sizeof options - 1), LOCUS_E_ARGUMENT, "size");
     WORKS(locus_pmq_query_init(&query, sizeof query));
-    CHECK(query.struct_size == sizeof query && query.region == LOCUS_REGION_ALL && query.reserved0 == 0);
-    CHECK(query.time_from == INT64_MIN && query.time_to == INT64_MAX && query.filter == NULL);
+    CHECK(query.struct_size == sizeof query && query.region == LOCUS_REGION_ALL && query.expired == 0);
+    CHECK(query.time_from == INT64_MIN && query.time_to == INT64_MAX && query.filter == NULL && query.left == NULL);
     REFUSES(locus_pmq_query_init(NULL, sizeof query), LOCUS_E_ARGUMENT, "query");
     REFUSES(locus_pmq_query_init(&query, 0), LOCUS_E_ARGUMENT, "size");
 }
@@ -157,7 +157,7 @@ static void bad_queries(locus_pmq *pmq) {
     BAD_QUERY(struct_size = 0, "struct_size is 0");
     BAD_QUERY(struct_size = sizeof query - 8, "struct_size");
     BAD_QUERY(region = 99, "region is 99");
-    BAD_QUERY(reserved0 = 1, "reserved0 is 1");
+    BAD_QUERY(expired = 2, "expired is 2");
     BAD_QUERY(box.south = 50, "south");
     BAD_QUERY(box.south = -90.5, "south");
     BAD_QUERY(box.north = 91, "north");
@@ -513,9 +513,70 @@ static void snapshots(void) {
     locus_pmq_snapshot_destroy(NULL);
 }
 
+/* Records outside a store. */
+static void selections(void) {
+    const locus_point32 here = point(48, 2, 10, 1), there = point(10, 2, 10, 2);
+    locus_pmq_query query = box(47, 1, 49, 3);
+    locus_pmq_selection *selection = NULL;
+    locus_key_range ranges[16];
+    uint64_t key = 0;
+    size_t count = 0, i;
+    int32_t matches = -1, covered = 0;
+    WORKS(locus_pmq_selection_create(&query, LOCUS_RECORD_POINT32, &selection));
+    WORKS(locus_pmq_selection_ranges(selection, ranges, 16, &count));
+    CHECK(count >= 1 && count <= 16);
+    WORKS(locus_pmq_key(here.latitude, here.longitude, &key));
+    for (i = 0; i < count; i++)
+        covered |= ranges[i].first <= key && key <= ranges[i].last;
+    CHECK(covered);
+    WORKS(locus_pmq_selection_matches(selection, &here, 0, &matches));
+    CHECK(matches == 1);
+    WORKS(locus_pmq_selection_matches(selection, &there, 0, &matches));
+    CHECK(matches == 0);
+    REFUSES(locus_pmq_selection_ranges(NULL, ranges, 16, &count), LOCUS_E_ARGUMENT, "selection is NULL");
+    REFUSES(locus_pmq_selection_ranges(selection, NULL, 16, &count), LOCUS_E_ARGUMENT, "ranges is NULL");
+    REFUSES(locus_pmq_selection_ranges(selection, ranges, 0, &count), LOCUS_E_ARGUMENT, "capacity is 0");
+    REFUSES(locus_pmq_selection_ranges(selection, ranges, 16, NULL), LOCUS_E_ARGUMENT, "count is NULL");
+    REFUSES(locus_pmq_selection_matches(NULL, &here, 0, &matches), LOCUS_E_ARGUMENT, "selection is NULL");
+    REFUSES(locus_pmq_selection_matches(selection, NULL, 0, &matches), LOCUS_E_ARGUMENT, "record is NULL");
+    REFUSES(locus_pmq_selection_matches(selection, &here, 2, &matches), LOCUS_E_ARGUMENT, "inside is 2");
+    REFUSES(locus_pmq_selection_matches(selection, &here, 0, NULL), LOCUS_E_ARGUMENT, "matches is NULL");
+    locus_pmq_selection_destroy(selection);
+    locus_pmq_selection_destroy(NULL);
+    REFUSES(locus_pmq_selection_create(&query, 7, &selection), LOCUS_E_ARGUMENT, "record is 7");
+    CHECK(selection == NULL);
+    query.box.north = 46;
+    REFUSES(locus_pmq_selection_create(&query, LOCUS_RECORD_TEXT156, &selection), LOCUS_E_ARGUMENT, "south");
+    REFUSES(locus_pmq_selection_create(&query, LOCUS_RECORD_POINT32, NULL), LOCUS_E_ARGUMENT, "selection is NULL");
+}
+
+/* Expired records, and how many had left. */
+static void departures(void) {
+    const locus_point32 record = point(48, 2, 0, 0);
+    locus_pmq_options options;
+    locus_pmq_query query = everything();
+    locus_pmq *pmq = NULL;
+    uint64_t count = 0, left = 99;
+    WORKS(locus_pmq_options_init(&options, sizeof options));
+    options.horizon = 10;
+    WORKS(locus_pmq_create(&options, &pmq));
+    WORKS(locus_pmq_insert(pmq, &record, 1, 0));
+    query.left = &left;
+    query.expired = 1;
+    WORKS(locus_pmq_count(pmq, &query, &count));
+    CHECK(count == 1 && left == 0);
+    REFUSES(locus_pmq_erase(pmq, &query, NULL), LOCUS_E_ARGUMENT, "query.expired");
+    WORKS(locus_pmq_sweep(pmq, 100, NULL));
+    WORKS(locus_pmq_count(pmq, &query, &count));
+    CHECK(count == 0 && left == 1);
+    locus_pmq_destroy(pmq);
+}
+
 int main(void) {
     locus_pmq *pmq = NULL;
     snapshots();
+    selections();
+    departures();
     defaults();
     keys();
     bad_options();

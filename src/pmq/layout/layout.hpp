@@ -66,6 +66,8 @@ public:
     virtual ~View() = default;
     virtual const RecordFormat &format() const noexcept = 0;
     virtual Moment moment() const noexcept = 0;
+    // How many records had left the store by then.
+    virtual uint64_t left() const noexcept = 0;
     // No stored record is older.
     virtual int64_t oldest() const noexcept = 0;
 
@@ -77,15 +79,17 @@ public:
     // The number of stored records with a key in `keys` and a time not before `from`, without looking at each where the
     // layout can.
     virtual uint64_t count(const Place &place, const KeyRange &keys, int64_t from) const = 0;
-    // Show blocks that together hold every live record with a key in `keys` once, and perhaps expired ones, until
-    // `visit` says false; false if it did.
-    virtual bool scan(const Place &place, const KeyRange &keys, Order order,
+    // Show blocks that together hold every stored record with a key in `keys` and a time not before `from` once, and
+    // perhaps older ones, until `visit` says false; false if it did.
+    virtual bool scan(const Place &place, const KeyRange &keys, int64_t from, Order order,
                       FunctionRef<bool(const Block &)> visit) const = 0;
 
     // The number of stored records, the expired ones included; and show blocks that hold them all, in the order (key,
     // arrival), until `visit` says false; false if it did.
     virtual uint64_t stored() const noexcept = 0;
-    virtual bool scan_stored(FunctionRef<bool(const Block &)> visit) const = 0;
+    bool scan_stored(FunctionRef<bool(const Block &)> visit) const {
+        return scan(everywhere(), KeyRange{}, INT64_MIN, Order::key, visit);
+    }
 };
 
 // A moment kept for several queries.

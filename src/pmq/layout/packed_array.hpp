@@ -34,14 +34,14 @@ public:
 private:
     const RecordFormat &format() const noexcept override { return format_; }
     Moment moment() const noexcept override { return moment_; }
+    uint64_t left() const noexcept override { return left_; }
     int64_t oldest() const noexcept override { return oldest_; }
     Place everywhere() const noexcept override;
     Place narrow(const Place &outer, const Quadrant &quadrant) const noexcept override;
     uint64_t count(const Place &place, const KeyRange &keys, int64_t from) const override;
-    bool scan(const Place &place, const KeyRange &keys, Order order,
+    bool scan(const Place &place, const KeyRange &keys, int64_t from, Order order,
               FunctionRef<bool(const Block &)> visit) const override;
     uint64_t stored() const noexcept override { return array_.windows.total(); }
-    bool scan_stored(FunctionRef<bool(const Block &)> visit) const override;
 
     // What one operation changes, sorted by (key, arrival).
     struct Change {
@@ -83,6 +83,7 @@ private:
     Segments array_;
     QuadtreeIndex index_;
     Moment moment_;
+    uint64_t left_ = 0; // records that ever left
     int64_t oldest_ = INT64_MAX;
     std::vector<Task> tasks_; // of the update at work
     Slots scratch_;           // a window's records while it is rebalanced

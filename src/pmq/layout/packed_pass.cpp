@@ -103,6 +103,7 @@ void PackedArray::removal_pass(Change &change, Eviction &eviction, Departures &d
     } else {
         apply(change);
     }
+    left_ += leaving.count();
     leaving.commit();
 }
 
@@ -127,6 +128,7 @@ void PackedArray::erase(const Selection &selection, Departures &departures) {
         });
     });
     apply(change);
+    left_ += leaving.count();
     leaving.commit();
 }
 

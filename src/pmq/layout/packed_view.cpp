@@ -21,7 +21,7 @@ uint64_t PackedArray::count(const Place &place, const KeyRange &keys, int64_t fr
     if (from <= oldest_)
         return array_.count(keys, place.first, place.last);
     uint64_t total = 0;
-    scan(place, keys, Order::any, [&](const Block &block) {
+    scan(place, keys, from, Order::any, [&](const Block &block) {
         for (size_t i = 0; i < block.count; ++i)
             total += format_.time(block.record(i)) >= from;
         return true;
@@ -29,7 +29,8 @@ uint64_t PackedArray::count(const Place &place, const KeyRange &keys, int64_t fr
     return total;
 }
 
-bool PackedArray::scan(const Place &place, const KeyRange &keys, Order, FunctionRef<bool(const Block &)> visit) const {
+bool PackedArray::scan(const Place &place, const KeyRange &keys, int64_t, Order,
+                       FunctionRef<bool(const Block &)> visit) const {
     if (place.empty())
         return true;
     const size_t first = array_.locate(keys.lo, place.first, place.last);
@@ -52,10 +53,6 @@ bool PackedArray::scan(const Place &place, const KeyRange &keys, Order, Function
             return false;
     }
     return true;
-}
-
-bool PackedArray::scan_stored(FunctionRef<bool(const Block &)> visit) const {
-    return scan({0, array_.count() - 1}, KeyRange{}, Order::key, visit);
 }
 
 LayoutStats PackedArray::stats() const {

@@ -116,6 +116,7 @@ void RingLeaves::remove(std::vector<Cut> &cuts, Departures &departures) {
     for (const Cut &cut : cuts)
         apply(cut);
     edition().stored -= total;
+    edition().left += total;
     leaving.commit();
 }
 

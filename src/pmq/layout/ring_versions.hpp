@@ -19,6 +19,7 @@ struct Edition {
     Directory directory;
     Moment moment;
     uint64_t stored = 0;
+    uint64_t left = 0; // records that ever left
 };
 
 class Versions {

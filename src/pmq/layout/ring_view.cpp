@@ -123,38 +123,26 @@ Block RingView::slots_of(const Node &node, size_t leaf) const noexcept {
     return block;
 }
 
-bool RingView::scan(const Place &place, const KeyRange &keys, Order order,
+bool RingView::scan(const Place &place, const KeyRange &keys, int64_t from, Order order,
                     FunctionRef<bool(const Block &)> visit) const {
     return for_each_leaf(place, [&](size_t position, size_t leaf) {
         if (edition_.directory[position]->leaf[leaf].count == 0)
             return true;
-        if (order == Order::any)
-            return scan_ring(position, leaf, keys, visit);
-        const Node &node = *edition_.directory[position];
-        Block block = slots_of(node, leaf);
-        const size_t first = first_live(node, leaf, block);
-        return scan_sorted(node, leaf, first, keys, block, visit);
+        return order == Order::any ? scan_ring(position, leaf, keys, from, visit)
+                                   : scan_sorted(position, leaf, keys, from, visit);
     });
 }
 
-bool RingView::scan_stored(FunctionRef<bool(const Block &)> visit) const {
-    return for_each_leaf(everywhere(), [&](size_t position, size_t leaf) {
-        const Node &node = *edition_.directory[position];
-        return scan_sorted(node, leaf, 0, KeyRange{}, slots_of(node, leaf), visit);
-    });
-}
-
-// Where times are in order, what has expired is left out.
-size_t RingView::first_live(const Node &node, size_t leaf, Block &block) const noexcept {
-    const int64_t cutoff = edition_.moment.cutoff;
-    if (node.leaf[leaf].oldest >= cutoff || !node.is_ordered(leaf))
+// Where times are in order, what is older than wanted is left out.
+size_t RingView::skip_older(const Node &node, size_t leaf, int64_t from, Block &block) const noexcept {
+    if (node.leaf[leaf].oldest >= from || !node.is_ordered(leaf))
         return 0;
-    block.oldest = cutoff;
-    return first_not_before(format_, shape_, node, leaf, cutoff);
+    block.oldest = from;
+    return first_not_before(format_, shape_, node, leaf, from);
 }
 
 // A ring is one block, or two.
-bool RingView::scan_ring(size_t position, size_t leaf, const KeyRange &keys,
+bool RingView::scan_ring(size_t position, size_t leaf, const KeyRange &keys, int64_t from,
                          FunctionRef<bool(const Block &)> visit) const {
     const Node &node = *edition_.directory[position];
     const Block all = slots_of(node, leaf);
@@ -162,7 +150,7 @@ bool RingView::scan_ring(size_t position, size_t leaf, const KeyRange &keys,
     block.within = within(position, leaf, keys);
     block.lowest = node.separators[leaf];
     block.highest = highest(position, leaf);
-    size_t entry = first_live(node, leaf, block);
+    size_t entry = skip_older(node, leaf, from, block);
     while (entry < node.leaf[leaf].count) {
         const size_t slot = shape_.slot(node.leaf[leaf].head, entry);
         block.keys = all.keys + slot * all.key_stride;
@@ -232,12 +220,13 @@ private:
 
 } // namespace
 
-// The entries of a leaf from `first` on.
-bool RingView::scan_sorted(const Node &node, size_t leaf, size_t first, const KeyRange &keys, Block block,
+bool RingView::scan_sorted(size_t position, size_t leaf, const KeyRange &keys, int64_t from,
                            FunctionRef<bool(const Block &)> visit) const {
+    const Node &node = *edition_.directory[position];
+    Block block = slots_of(node, leaf);
     LeafOrder order;
     const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf].memory);
-    for (size_t i = first; i < node.leaf[leaf].count; ++i) {
+    for (size_t i = skip_older(node, leaf, from, block); i < node.leaf[leaf].count; ++i) {
         const size_t slot = shape_.slot(node.leaf[leaf].head, i);
         if (!keys.contains(leaf_keys[slot]))
             continue;

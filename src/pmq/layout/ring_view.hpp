@@ -17,14 +17,14 @@ public:
 
     const RecordFormat &format() const noexcept override { return format_; }
     Moment moment() const noexcept override { return edition_.moment; }
+    uint64_t left() const noexcept override { return edition_.left; }
     int64_t oldest() const noexcept override;
     Place everywhere() const noexcept override;
     Place narrow(const Place &outer, const Quadrant &quadrant) const noexcept override;
     uint64_t count(const Place &place, const KeyRange &keys, int64_t from) const override;
-    bool scan(const Place &place, const KeyRange &keys, Order order,
+    bool scan(const Place &place, const KeyRange &keys, int64_t from, Order order,
               FunctionRef<bool(const Block &)> visit) const override;
     uint64_t stored() const noexcept override { return edition_.stored; }
-    bool scan_stored(FunctionRef<bool(const Block &)> visit) const override;
 
     // Call visit(node's position, leaf) for the leaves of a place until it returns false; false if it did.
     template <typename Visit>
@@ -52,9 +52,10 @@ private:
     bool within(size_t position, size_t leaf, const KeyRange &keys) const noexcept;
     uint64_t count_leaf(size_t position, size_t leaf, const KeyRange &keys, int64_t from) const noexcept;
     uint64_t highest(size_t position, size_t leaf) const noexcept;
-    size_t first_live(const Node &node, size_t leaf, Block &block) const noexcept;
-    bool scan_ring(size_t position, size_t leaf, const KeyRange &keys, FunctionRef<bool(const Block &)> visit) const;
-    bool scan_sorted(const Node &node, size_t leaf, size_t first, const KeyRange &keys, Block block,
+    size_t skip_older(const Node &node, size_t leaf, int64_t from, Block &block) const noexcept;
+    bool scan_ring(size_t position, size_t leaf, const KeyRange &keys, int64_t from,
+                   FunctionRef<bool(const Block &)> visit) const;
+    bool scan_sorted(size_t position, size_t leaf, const KeyRange &keys, int64_t from,
                      FunctionRef<bool(const Block &)> visit) const;
 
     const Edition &edition_;

@@ -63,7 +63,7 @@ private:
         const RangeAt range{at.place, at.quadrant.keys(), true};
         const Acceptance accepted(view_, live_, range);
         uint64_t first = 0;
-        view_.scan(range.place, range.keys, Order::any, [&](const Block &block) {
+        view_.scan(range.place, range.keys, live_.times.from, Order::any, [&](const Block &block) {
             for (size_t i = block.count; i-- > 0;) { // newest first
                 const size_t entry = block.entry(i);
                 const int64_t time = format_.time(block.record(entry));

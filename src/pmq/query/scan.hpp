@@ -48,7 +48,7 @@ private:
 template <typename Use>
 bool scan_accepted(const View &view, const Selection &selection, const RangeAt &range, Order order, Use &&use) {
     const Acceptance accepted(view, selection, range);
-    return view.scan(range.place, range.keys, order, [&](const Block &block) {
+    return view.scan(range.place, range.keys, selection.times.from, order, [&](const Block &block) {
         const bool all = accepted.all_of(block);
         for (size_t i = 0; i < block.count; ++i) {
             const size_t entry = block.entry(i);

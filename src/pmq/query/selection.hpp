@@ -11,11 +11,12 @@ struct Selection {
     TimeWindow times;
     locus_filter_fn filter = nullptr;
     void *filter_user = nullptr;
+    bool expired = false; // what has expired and is still stored counts as live
 
     // The same, of the records that are live at a moment.
     Selection at(const Moment &moment) const noexcept {
         Selection live = *this;
-        if (live.times.from < moment.cutoff)
+        if (!expired && live.times.from < moment.cutoff)
             live.times.from = moment.cutoff;
         return live;
     }

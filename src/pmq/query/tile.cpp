@@ -46,7 +46,7 @@ private:
     // A block whose keys lie in one bin is counted as a whole.
     void scan(const RangeAt &range) {
         const Acceptance accepted(view_, live_, range);
-        view_.scan(range.place, range.keys, Order::any, [&](const Block &block) {
+        view_.scan(range.place, range.keys, live_.times.from, Order::any, [&](const Block &block) {
             const bool all = accepted.all_of(block);
             if (all && places_.by_key() && places_.of(block.lowest) == places_.of(block.highest) &&
                 block.lowest >= range.keys.lo && block.highest < range.keys.hi) {
