@@ -6,7 +6,7 @@ check: $(CHECKS) ## the long tests: sanitizers, clang, SIMD=scalar, fuzzing, the
 	@echo "make check: all passed"
 
 # The areas whose tests use threads.
-THREADED := $(filter unit-core unit-graph unit-weights unit-pmq,$(UNIT_AREAS:%=unit-%))
+THREADED := $(filter unit-core unit-graph unit-weights unit-pmq unit-cold,$(UNIT_AREAS:%=unit-%))
 
 # clang's address sanitizer: g++'s does not see what masked vector stores write.
 check-address: | $(call needs,test check)
