@@ -3,6 +3,8 @@
 
 #include "explorer/selection.hpp"
 
+#include <locus/storage.h>
+
 #include <algorithm>
 #include <ctime>
 
@@ -34,6 +36,14 @@ int64_t wall_clock() {
 }
 
 Live::Live(const LiveSettings &settings) : settings_(settings), stream_clock_(settings.horizon) {
+    store_.reset(make(settings));
+    settings_.watch(store_.get());
+    if (!settings.folder.empty())
+        keeper_ = std::make_unique<Keeper>(store_.get(), settings.save_seconds);
+    writer_ = std::thread([this] { run(); });
+}
+
+locus_pmq *Live::make(const LiveSettings &settings) {
     locus_pmq_options options;
     check(locus_pmq_options_init(&options, sizeof options));
     options.record = LOCUS_RECORD_TEXT156;
@@ -41,10 +51,22 @@ Live::Live(const LiveSettings &settings) : settings_(settings), stream_clock_(se
     options.horizon = settings.horizon;
     options.max_bytes = settings.max_bytes;
     locus_pmq *store = nullptr;
-    check(locus_pmq_create(&options, &store));
-    store_.reset(store);
-    settings_.watch(store);
-    writer_ = std::thread([this] { run(); });
+    if (settings.folder.empty()) {
+        check(locus_pmq_create(&options, &store));
+        return store;
+    }
+    // A batch that was acknowledged outlives the process; the last second of them need not outlive a loss of power.
+    locus_pmq_log_options log;
+    check(locus_pmq_log_options_init(&log, sizeof log));
+    log.sync = LOCUS_SYNC_INTERVAL;
+    locus_pmq_recovery recovery{};
+    recovery.struct_size = sizeof recovery;
+    check(locus_pmq_open(settings.folder.c_str(), &options, &log, nullptr, nullptr, &recovery, &store));
+    recovered_ = recovery.now;
+    now_.store(recovery.now);
+    if (recovery.records > 0)
+        first_.store(INT64_MIN);
+    return store;
 }
 
 Live::~Live() { stop(); }
@@ -58,7 +80,11 @@ void Live::stop() {
     room_.notify_all();
     if (writer_.joinable())
         writer_.join();
+    if (keeper_)
+        keeper_->stop();
 }
+
+std::string Live::keeping() const { return keeper_ ? keeper_->failure() : ""; }
 
 bool Live::enqueue(Job job, bool wait) {
     std::unique_lock lock(mutex_);
@@ -136,7 +162,8 @@ std::string Live::insert(const Batch &batch) {
     const auto begin = Clock::now();
     const uint64_t cpu = thread_cpu_ns();
     const locus_status status = locus_pmq_insert(store_.get(), batch.data(), batch.size(), now);
-    if (status == LOCUS_E_MEMORY || status == LOCUS_E_ARGUMENT)
+    // What the store did not take, as it is; the next batch is tried as usual.
+    if (status == LOCUS_E_MEMORY || status == LOCUS_E_ARGUMENT || status == LOCUS_E_IO || status == LOCUS_E_STATE)
         return locus_last_error();
     check(status);
     now_.store(now, std::memory_order_release);

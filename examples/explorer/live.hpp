@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/stream_clock.hpp"
+#include "explorer/keeper.hpp"
 #include "explorer/latency.hpp"
 
 #include <locus/pmq.h>
@@ -26,8 +27,10 @@ using Batch = std::vector<locus_text156>;
 int64_t wall_clock(); // microseconds since the epoch
 
 struct LiveSettings {
-    int64_t horizon = 0;    // microseconds, or LOCUS_NO_HORIZON
-    uint64_t max_bytes = 0; // or LOCUS_NO_LIMIT
+    int64_t horizon = 0;     // microseconds, or LOCUS_NO_HORIZON
+    uint64_t max_bytes = 0;  // or LOCUS_NO_LIMIT
+    std::string folder;      // the store is kept there, over restarts; empty: in memory alone
+    double save_seconds = 0; // how often it is saved anew
     // What time it is for the window; INT64_MIN: the latest time of the records. Called by the writer.
     std::function<int64_t()> clock;
     std::function<void(locus_pmq *)> watch; // called with the store before anything is inserted
@@ -44,7 +47,7 @@ public:
     // batch is stored; it throws a Failure where the queue is full or the store refuses. Any thread.
     bool offer(Batch batch);
     void ingest(Batch batch);
-    void stop(); // stores what is queued; then the two above do nothing
+    void stop(); // stores what is queued, and saves; then the two above do nothing
 
     const locus_pmq *store() const { return store_.get(); }
     uint64_t version() const { return version_.load(std::memory_order_acquire); }
@@ -53,7 +56,9 @@ public:
     double rate() const;                                                     // records/s over five seconds
     size_t queued() const;
     uint64_t refused() const { return refused_.load(std::memory_order_relaxed); } // batches the store did not take
-    std::string failure() const;                                                  // why the writer has stopped
+    int64_t recovered() const { return recovered_; } // the clock found in the folder; INT64_MIN: there was none
+    std::string keeping() const;                     // why the latest save failed; empty: it did not
+    std::string failure() const;                     // why the writer has stopped
     const Latency &wall() const { return wall_; }
     const Latency &cpu() const { return cpu_; }
 
@@ -67,6 +72,7 @@ private:
     };
     using Clock = std::chrono::steady_clock;
 
+    locus_pmq *make(const LiveSettings &settings);
     bool enqueue(Job job, bool wait);
     void run();
     void store(Job &job);
@@ -82,6 +88,8 @@ private:
     std::atomic<int64_t> now_{INT64_MIN};
     std::atomic<int64_t> first_{INT64_MAX};
     std::atomic<uint64_t> refused_{0};
+    int64_t recovered_ = INT64_MIN;
+    std::unique_ptr<Keeper> keeper_; // where there is a folder
 
     // The writer's own.
     bool changed_ = false;

@@ -5,6 +5,7 @@
 #include "explorer/routes.hpp"
 #include "explorer/server.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -90,8 +91,12 @@ private:
 
     LiveSettings live_settings() {
         const bool limited = options_.memory > 0;
-        return {horizon(), limited ? static_cast<uint64_t>(options_.memory * megabyte) : LOCUS_NO_LIMIT,
-                [this] { return pace_.now(); }, [this](locus_pmq *store) { alerts_.watch(store); }};
+        return {horizon(),
+                limited ? static_cast<uint64_t>(options_.memory * megabyte) : LOCUS_NO_LIMIT,
+                options_.data,
+                options_.save,
+                [this] { return pace_.now(); },
+                [this](locus_pmq *store) { alerts_.watch(store); }};
     }
 
     std::string source_name() const {
@@ -109,7 +114,8 @@ private:
             return [this] { return std::make_unique<demo::FileSource>(options_.input, reader_options(options_)); };
         const double past = options_.prefill >= 0 ? options_.prefill : options_.horizon;
         return [this, past] {
-            const int64_t start = wall_clock() - static_cast<int64_t>(past * second);
+            // What the folder has brought back is not made again.
+            const int64_t start = std::max(wall_clock() - static_cast<int64_t>(past * second), live_.recovered());
             return std::make_unique<DemoSource>(world_, options_.rate, start, options_.seed);
         };
     }

@@ -64,6 +64,11 @@ void add_window(CLI::App &app, Options &options) {
                    "Most memory of the store, MB; beyond, the oldest records go; 0: no limit")
         ->check(CLI::Range(0.0, 1e7))
         ->group(group);
+    app.add_option("--data", options.data, "Folder that keeps the window over restarts: saved file and log of batches")
+        ->group(group);
+    app.add_option("--save", options.save, "Seconds after which it is saved anew, and the log begun afresh")
+        ->check(CLI::Range(1.0, 1e9))
+        ->group(group);
 }
 
 void add_server(CLI::App &app, Options &options) {

@@ -24,6 +24,8 @@ struct Options {
     // The window.
     double horizon = 10800; // seconds; 0: none
     double memory = 0;      // MB; 0: no limit
+    std::string data;       // folder; empty: in memory alone
+    double save = 600;      // seconds
 
     // The server.
     std::string bind = "127.0.0.1";

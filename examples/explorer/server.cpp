@@ -80,7 +80,7 @@ public:
         };
         Get(".*", handle);
         Post(".*", handle);
-        set_error_handler([this](const httplib::Request &from, httplib::Response &to) { wrong(from, to); });
+        set_error_handler([](const httplib::Request &, httplib::Response &to) { wrong(to); });
         errno = 0;
         port_ = settings.port == 0 ? bind_to_any_port(settings.bind) : settings.port;
         if (port_ < 0 || (settings.port != 0 && !bind_to_port(settings.bind, settings.port)))
@@ -131,9 +131,9 @@ private:
         return HandlerResponse::Handled;
     }
 
-    // What httplib itself refuses: requests it cannot read, bodies too large.
-    void wrong(const httplib::Request &from, httplib::Response &to) {
-        if (!to.body.empty() || to.status == 304)
+    // What httplib itself refuses: requests it cannot read, bodies too large. Answers of ours carry a policy.
+    static void wrong(httplib::Response &to) {
+        if (to.has_header("Content-Security-Policy"))
             return;
         const char *text = to.status == 413   ? "body: too large"
                            : to.status == 414 ? "url: too long"
@@ -142,7 +142,6 @@ private:
         current->cut_after_answer();
         Reply reply = error_reply(to.status, text);
         reply.headers = {{"X-Content-Type-Options", "nosniff"}, {"Cache-Control", "no-store"}};
-        static_cast<void>(from);
         send_reply(reply, to);
     }
 

@@ -106,6 +106,7 @@ Json Statistics::stats() const {
             {"requests", counters_.requests.load()},
             {"alerts", alerts_.last()},
             {"cold", nullptr},
+            {"save_error", live_.keeping().empty() ? Json() : Json(live_.keeping())},
             {"source",
              {{"name", feed.name},
               {"state", feed.state},

@@ -503,6 +503,23 @@ class Sources(unittest.TestCase):
         self.assertEqual(server.stop()[0], 0)  # while the input stays open
         server.process.stdin.close()
 
+    def test_folder(self):
+        """What was acknowledged is there again, after an end of any kind."""
+        with tempfile.TemporaryDirectory() as parent:
+            folder = os.path.join(parent, "window")
+            for end in (signal.SIGKILL, signal.SIGTERM, signal.SIGKILL):
+                server = Server("--empty", "--data", folder)
+                before = server.json("/count")["count"]
+                server.ingest([{"time": time.time(), "lat": 1, "lon": 2, "text": f"{before} and {i}"} for i in range(100)])
+                self.assertEqual(server.stop(end)[0], 0 if end == signal.SIGTERM else -end)
+            server = Server("--empty", "--data", folder)
+            texts = [r["text"] for r in server.json("/records?limit=1000")["records"]]
+            self.assertEqual(sorted(texts), sorted(f"{b} and {i}" for b in (0, 100, 200) for i in range(100)))
+            again = subprocess.run([PROGRAM, "--empty", "--port", "0", "--data", folder], capture_output=True, text=True, timeout=PATIENCE)
+            self.assertEqual(again.returncode, 1)
+            self.assertIn(folder, again.stderr)
+            server.stop()
+
     def test_token(self):
         good = [{"time": time.time(), "lat": 1, "lon": 2}]
         server = Server("--empty", "--bind", "0.0.0.0")
