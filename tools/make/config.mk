@@ -19,7 +19,7 @@ SOVERSION := $(firstword $(subst ., ,$(VERSION)))
 
 WARN := -Wall -Wextra -Wpedantic -Wconversion -Werror
 # Under the sanitizers g++ warns of what cannot happen; the same sources are held to -Werror without them.
-ifneq ($(and $(SANITIZE),$(filter-out clang++%,$(notdir $(CXX)))),)
+ifneq ($(SANITIZE),)
 WARN := $(filter-out -Werror,$(WARN))
 endif
 CPPFLAGS_ALL := -Iinclude -Isrc $(CPPFLAGS)

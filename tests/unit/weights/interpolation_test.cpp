@@ -21,9 +21,14 @@ struct Model {
 
     Model(const locus_graph_options &options, const std::vector<float> &material)
         : graph(std::make_shared<Graph>(options, material.data())),
-          diagram(
-              std::make_shared<Diagram>(graph, locus_diagram_options{sizeof(locus_diagram_options), LOCUS_ENGINE_AUTO,
-                                                                     0, std::numeric_limits<double>::infinity()})) {}
+          diagram(std::make_shared<Diagram>(graph, plain_options())) {}
+
+    static locus_diagram_options plain_options() {
+        locus_diagram_options options{};
+        options.struct_size = sizeof options;
+        options.max_distance = std::numeric_limits<double>::infinity();
+        return options;
+    }
 
     void seed(uint32_t id, uint64_t voxel) {
         const auto [x, y, z] = graph->grid().place(voxel);
