@@ -35,11 +35,7 @@ std::string data_file(const std::string &path);
 void add_pmq_insert(Cases &cases);
 void add_pmq_window(Cases &cases);
 void add_pmq_queries(Cases &cases);
-<<<<<<< HEAD
 void add_pmq_storage(Cases &cases);
-=======
-void add_pmq_cold(Cases &cases);
->>>>>>> fc9b625 (Cold tier: what leaves a store goes into SQLite in the background, queries see both tiers as one)
 void add_voronoi(Cases &cases);
 void add_updates(Cases &cases);
 void add_weights(Cases &cases);

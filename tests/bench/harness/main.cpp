@@ -40,11 +40,7 @@ Cases all_cases() {
     add_pmq_insert(cases);
     add_pmq_window(cases);
     add_pmq_queries(cases);
-<<<<<<< HEAD
     add_pmq_storage(cases);
-=======
-    add_pmq_cold(cases);
->>>>>>> fc9b625 (Cold tier: what leaves a store goes into SQLite in the background, queries see both tiers as one)
     add_voronoi(cases);
     add_updates(cases);
     add_weights(cases);
