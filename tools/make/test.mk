@@ -68,7 +68,7 @@ abi-baseline: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test
 # MEMCHECK_RUNS, targets that other files add with $(MEMCHECK) in the recipe.
 MEMCHECK_MS ?= 800
 # In the API tests what is still reachable at the end counts as a leak; not after dlclose, which leaves libstdc++ in memory.
-MEMCHECK := valgrind --quiet --leak-check=full --error-exitcode=99 --errors-for-leak-kinds=definite,indirect,possible
+MEMCHECK := valgrind --quiet --suppressions=tests/valgrind.supp --leak-check=full --error-exitcode=99 --errors-for-leak-kinds=definite,indirect,possible
 MEMCHECK_REACHABLE := --errors-for-leak-kinds=all --show-leak-kinds=all
 MEMCHECK_API := $(patsubst %,memcheck-%,$(filter-out api-memory,$(API_TESTS)))
 MEMCHECK_UNIT := $(UNIT_AREAS:%=memcheck-unit-%)
