@@ -1,6 +1,6 @@
 # The bindings: other languages on the C interface alone. `make check` runs their tests.
-.PHONY: bindings bindings-cpp bindings-python bindings-coverage tutorial-python
-bindings: bindings-cpp bindings-python bindings-coverage ## test the bindings to other languages
+.PHONY: bindings bindings-cpp bindings-python bindings-rust bindings-coverage tutorial-python
+bindings: bindings-cpp bindings-python bindings-rust bindings-coverage ## test the bindings to other languages
 check: bindings
 
 # The C++ types of include/locus/*.hpp; their unit tests are unit-cpp.
@@ -14,6 +14,12 @@ bindings-python: $(SHARED_locus) $(SHARED_locus_io) | $(call needs,test bindings
 	$(STAGE) $(FLAVOUR)$@ env $(PYTHON_HERE) tests/bindings/python.sh
 tutorial-python: $(SHARED_locus) $(SHARED_locus_io) $(HEAD_CT) | $(call needs,bindings) ## draw a head CT and a stream from Python into build/tutorial
 	@env $(PYTHON_HERE) PYTHONPATH=bindings/python $(PYTHON) bindings/python/tutorial/tutorial.py $(HEAD_CT) build/tutorial
+
+# The Rust crates: tests, doctests, layout of structs, the tour.
+bindings-rust: $(SHARED_locus) | $(call needs,test)
+	@if command -v cargo >/dev/null; \
+	then $(STAGE:@%=%) $(FLAVOUR)$@ tests/bindings/rust.sh $(abspath $(dir $(SHARED_locus))) $(abspath $(OUT))/rust; \
+	else echo "bindings-rust: skipped, there is no cargo"; fi
 
 # Every exported function is bound or left out with a reason, in each binding; and C++ sees the structs as C does.
 bindings-coverage: | $(call needs,test)
