@@ -5,12 +5,16 @@ import { defer } from './defer.mjs';
 
 const START_MS = 60000;
 
+// A test that is ended from outside leaves no server behind.
+process.once('SIGTERM', () => process.exit(143));
+
 export class Explorer {
   // `args`: of the program; it is stopped when the test `t` ends.
   static async start(t, args, port = 0) {
     const server = new Explorer();
     server.process = spawn(process.env.EXPLORER, ['--port', String(port), ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
     defer(t, () => server.stop());
+    process.once('exit', () => server.process.kill());
     server.url = await server.address();
     return server;
   }

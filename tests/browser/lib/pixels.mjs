@@ -3,13 +3,17 @@
 // The pixels of a screenshot as { width, height, data: [r, g, b, a, ...] } (decoded by the page, which is at hand).
 export async function screen(page, clip) {
   const bytes = await page.screenshot({ clip });
-  return page.evaluate(async (text) => {
+  const { width, height, text: pixels } = await page.evaluate(async (text) => {
     const binary = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     const picture = await createImageBitmap(new Blob([binary], { type: 'image/png' }));
     const pen = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
     pen.drawImage(picture, 0, 0);
-    return { width: picture.width, height: picture.height, data: Array.from(pen.getImageData(0, 0, picture.width, picture.height).data) };
+    const { data } = pen.getImageData(0, 0, picture.width, picture.height);
+    const letters = [];
+    for (let i = 0; i < data.length; i += 8192) letters.push(String.fromCharCode(...data.subarray(i, i + 8192)));
+    return { width: picture.width, height: picture.height, text: btoa(letters.join('')) };
   }, bytes.toString('base64'));
+  return { width, height, data: Buffer.from(pixels, 'base64') };
 }
 
 export function countPixels({ data }, accept) {
