@@ -2,6 +2,7 @@
 """The explorer's HTTP interface from end to end, good input and bad: tests/examples/explorer.py [--quick] PROGRAM [WRAPPER...]
 
 Answers are compared with brute force over the records that were posted; --quick does these alone. WRAPPER runs the program (Valgrind)."""
+import atexit
 import http.client
 import json
 import math
@@ -33,6 +34,7 @@ class Server:
     def __init__(self, *options, stdin=subprocess.DEVNULL, env=None):
         command = WRAPPER + [PROGRAM, "--port", "0", *options]
         self.process = subprocess.Popen(command, stdin=stdin, stdout=subprocess.PIPE, text=True, env=env)
+        atexit.register(self.process.kill)  # a test that fails leaves it running
         line = self.process.stdout.readline()
         found = re.search(r":(\d+)  ", line)
         if not found:
@@ -168,10 +170,10 @@ class Answers(unittest.TestCase):
                          len(self.inside(lambda r: r["time"] <= middle and 47 <= r["lat"] <= 50 and 1 <= r["lon"] <= 4)))
         self.assertEqual(ask(f"to={middle}&last=600"), len(self.inside(lambda r: middle - 600 * 1000000 <= r["time"] <= middle)))
 
-    def pages(self, query):
+    def pages(self, query, server=None):
         found, after = [], None
         for _ in range(100):
-            page = self.server.json("/records?" + query + (f"&after={after}" if after else ""))
+            page = (server or self.server).json("/records?" + query + (f"&after={after}" if after else ""))
             found += page["records"]
             after = page["next"]
             if not after:
@@ -195,13 +197,8 @@ class Answers(unittest.TestCase):
         moment = self.now / 1e6
         server.ingest([{"time": moment, "lat": 1, "lon": 2, "text": str(i)} for i in range(230)])
         for order in ("newest", "place"):
-            found, after = [], ""
-            while after is not None:
-                page = server.json(f"/records?order={order}&limit=50" + (f"&after={after}" if after else ""))
-                self.assertLessEqual(len(page["records"]), 50)
-                found += [r["text"] for r in page["records"]]
-                after = page["next"]
-            self.assertEqual(sorted(map(int, found)), list(range(230)))
+            found = self.pages(f"order={order}&limit=50", server)
+            self.assertEqual(sorted(int(r["text"]) for r in found), list(range(230)))
         server.stop()
 
     def test_texts(self):
