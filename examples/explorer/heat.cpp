@@ -4,22 +4,64 @@
 #include "explorer/selection.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace explorer {
 namespace {
 
 constexpr double darkest = 0.18;
+constexpr uint32_t deepest = 25; // zoom
 
-// One tile of the 3 x 3 around `place`, written into the middle or the rim of a grid with a margin.
-void add_tile(std::vector<float> &grid, int width, int margin, int bins, int dx, int dy,
-              const std::vector<uint32_t> &counts) {
-    const int left = margin + dx * bins, top = margin + dy * bins;
-    for (int y = std::max(0, -top); y < bins && top + y < width; ++y)
-        for (int x = std::max(0, -left); x < bins && left + x < width; ++x)
-            grid[static_cast<size_t>((top + y) * width + left + x)] =
-                static_cast<float>(counts[static_cast<size_t>(y * bins + x)]);
-}
+// A tile's counts with a margin around it, which its neighbours give.
+class Grid {
+public:
+    Grid(const locus_pmq *store, const TilePlace &place, const Grain &grain, const locus_pmq_query &query)
+        : store_(store), query_(query), place_(place), log2_bins_(grain.log2_bins), bins_(grain.bins()),
+          margin_(static_cast<int>(grain.blur)), width_(bins_ + 2 * margin_),
+          heat_(static_cast<size_t>(width_ * width_)) {
+        add(0, 0, log2_bins_);
+        // Only the rim of a neighbour is asked for, in squares as wide as the margin or a little wider: a whole tile
+        // takes long where many records are. Squares are tiles, too, of zoom 25 at most.
+        const auto wide = static_cast<uint32_t>(std::bit_width(grain.blur - 1));
+        const uint32_t level = place.zoom + log2_bins_;
+        const uint32_t log2_square = std::min(std::max(wide, level - std::min(level, deepest)), log2_bins_);
+        const int square = 1 << log2_square;
+        const int reach = (margin_ + square - 1) / square * square;
+        for (int top = -reach; top < bins_ + reach; top += square)
+            for (int left = -reach; left < bins_ + reach; left += square)
+                if (top < 0 || top >= bins_ || left < 0 || left >= bins_)
+                    add(left, top, log2_square);
+    }
+
+    std::vector<float> take() { return std::move(heat_); } // row by row, the margin included
+
+private:
+    // The bins of a square, whose corner lies at (left, top) from the tile's; round the world, and not beyond the
+    // poles.
+    void add(int left, int top, uint32_t log2_square) {
+        const uint32_t zoom = place_.zoom + log2_bins_ - log2_square;
+        const int64_t squares = int64_t{1} << zoom;
+        const int64_t x = (int64_t{place_.x} * bins_ + left) >> log2_square;
+        const int64_t y = (int64_t{place_.y} * bins_ + top) >> log2_square;
+        if (y < 0 || y >= squares)
+            return;
+        const TilePlace square{zoom, static_cast<uint32_t>(x & (squares - 1)), static_cast<uint32_t>(y)};
+        const auto counts = counts_of(store_, square, log2_square, query_);
+        const int side = 1 << log2_square;
+        for (int row = std::max(0, -margin_ - top); row < side && top + row < bins_ + margin_; ++row)
+            for (int column = std::max(0, -margin_ - left); column < side && left + column < bins_ + margin_; ++column)
+                heat_[static_cast<size_t>((top + row + margin_) * width_ + left + column + margin_)] =
+                    static_cast<float>(counts[static_cast<size_t>(row * side + column)]);
+    }
+
+    const locus_pmq *store_;
+    const locus_pmq_query &query_;
+    TilePlace place_;
+    uint32_t log2_bins_;
+    int bins_, margin_, width_;
+    std::vector<float> heat_;
+};
 
 // The kernel 1 2 1 along the rows or, with a stride of a row, the columns. What lies beyond the grid counts as nothing,
 // and reaches one bin further in each time: as far as the margin is wide.
@@ -76,19 +118,7 @@ std::vector<float> heat_of(const locus_pmq *store, const TilePlace &place, const
     const int bins = static_cast<int>(grain.bins());
     const int margin = static_cast<int>(grain.blur);
     const int width = bins + 2 * margin;
-    const uint32_t tiles = 1u << place.zoom;
-    std::vector<float> grid(static_cast<size_t>(width * width));
-    // One bin a side is narrower than the margin: then the tiles two and more away reach in, too.
-    const int reach = (margin + bins - 1) / bins;
-    for (int dy = -reach; dy <= reach; ++dy)
-        for (int dx = -reach; dx <= reach; ++dx) {
-            const int64_t y = int64_t{place.y} + dy;
-            if (y < 0 || y >= tiles)
-                continue;
-            const auto x = static_cast<uint32_t>(int64_t{place.x} + dx) & (tiles - 1); // round the world
-            const TilePlace other{place.zoom, x, static_cast<uint32_t>(y)};
-            add_tile(grid, width, margin, bins, dx, dy, counts_of(store, other, grain.log2_bins, query));
-        }
+    std::vector<float> grid = Grid(store, place, grain, query).take();
     for (uint32_t i = 0; i < grain.blur; ++i) {
         smooth(grid, width, 1, width);
         smooth(grid, width, width, 1);
