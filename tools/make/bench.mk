@@ -19,11 +19,14 @@ $(BENCH_PROGRAM): $(BENCH_OBJECTS) $(LIB_STATIC)
 	@echo "  LD  $@"
 	@$(CXX) $^ $(bench_libraries) $(LDFLAGS_ALL) -o $@
 
-.PHONY: bench bench-deps check-bench
+.PHONY: bench bench-deps bench-plots check-bench
 bench: $(BENCH_PROGRAM) ## run the benchmarks into build/bench.jsonl; ONLY=regex for some, QUICK=1 for small sizes
 	@BENCH_COMMIT=$(BENCH_COMMIT) $< --out build/bench.jsonl $(if $(ONLY),--only '$(ONLY)') $(if $(QUICK),--quick)
 
 bench-deps: packages-bench packages-bench-deps ## install the optional peers of the benchmarks: databases, scikit-image
+
+bench-plots: | $(call needs,plots) ## draw figures 3.9 and 3.10 of the thesis from build/bench.jsonl into build
+	@/usr/bin/python3 tests/bench/plot.py build/bench.jsonl build
 
 # A small run of a case of each kind: the answers of ours and of the peers that were found are compared.
 CHECK_CASES := pmq\.(insert\.1M\.b100|window\.10M8\.b1000|count\.30km|read\.30km|tile\.z4|topk.*)|voronoi\.(cube128\.(gradient|maze)|plate)\.s[0-9]+|update.*

@@ -36,6 +36,7 @@ void add_pmq_insert(Cases &cases);
 void add_pmq_window(Cases &cases);
 void add_pmq_queries(Cases &cases);
 void add_pmq_storage(Cases &cases);
+void add_pmq_topk(Cases &cases);
 void add_voronoi(Cases &cases);
 void add_updates(Cases &cases);
 void add_weights(Cases &cases);
@@ -43,6 +44,7 @@ void add_thesis_chapter2(Cases &cases);
 void add_thesis_weights(Cases &cases);
 void add_gpu(Cases &cases);
 void add_thesis_chapter3(Cases &cases);
+void add_thesis_queries(Cases &cases);
 void add_thesis_databases(Cases &cases);
 
 } // namespace bench

@@ -41,6 +41,7 @@ Cases all_cases() {
     add_pmq_window(cases);
     add_pmq_queries(cases);
     add_pmq_storage(cases);
+    add_pmq_topk(cases);
     add_voronoi(cases);
     add_updates(cases);
     add_weights(cases);
@@ -48,6 +49,7 @@ Cases all_cases() {
     add_thesis_weights(cases);
     add_gpu(cases);
     add_thesis_chapter3(cases);
+    add_thesis_queries(cases);
     add_thesis_databases(cases);
     return cases;
 }

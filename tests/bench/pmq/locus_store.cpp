@@ -50,6 +50,19 @@ public:
         need(locus_pmq_tile(pmq_.get(), tile.zoom, tile.x, tile.y, 8, nullptr, bins.data(), bins.size(), nullptr));
     }
 
+    std::vector<double> topk(const TopK &query) override {
+        locus_pmq_score score;
+        need(locus_pmq_score_init(&score, sizeof score)); // the thesis' parameters
+        score.latitude = query.latitude;
+        score.longitude = query.longitude;
+        best_.resize(TopK::k);
+        std::vector<double> scores(TopK::k);
+        std::size_t found = 0;
+        need(locus_pmq_topk(pmq_.get(), &score, nullptr, TopK::k, best_.data(), scores.data(), &found));
+        scores.resize(found);
+        return scores;
+    }
+
     uint64_t size() override { return stats().records; }
     std::size_t bytes() override { return stats().bytes; }
 
@@ -62,6 +75,7 @@ private:
     }
 
     Pmq pmq_;
+    std::vector<Record> best_;
 };
 
 } // namespace

@@ -1,70 +1,10 @@
 // pmq.count.*, pmq.read.* and pmq.tile.*: queries of 10 M records under a live horizon.
 #include "tests/bench/harness/cases.hpp"
 #include "tests/bench/pmq/cover.hpp"
-#include "tests/bench/pmq/drive.hpp"
-
-#include <random>
+#include "tests/bench/pmq/live_window.hpp"
 
 namespace bench {
 namespace {
-
-constexpr std::size_t batch = 1000;
-
-/// A stream of which the last `live` records lie inside the horizon, and the stores that have taken it.
-struct Window {
-    std::vector<locus_point32> records;
-    std::span<const locus_point32> live;
-    int64_t horizon = 0;
-
-    explicit Window(bool quick) {
-        const std::size_t count = quick ? 300'000 : 10'000'000;
-        records = clustered<locus_point32>(count + count / 10, batch);
-        live = std::span(records).last(count);
-        horizon = records.back().time - live.front().time;
-    }
-};
-
-struct Filled {
-    std::string peer;
-    std::unique_ptr<TileStore<locus_point32>> store;
-};
-
-std::vector<Filled> fill(const Window &window) {
-    std::vector<Filled> stores;
-    const auto add = [&](const std::string &peer, std::unique_ptr<TileStore<locus_point32>> store) {
-        feed<locus_point32>(*store, window.records, batch);
-        stores.push_back({peer, std::move(store)});
-    };
-    add("", make_locus<locus_point32>(Layout::ours, window.horizon));
-    add("array", make_locus<locus_point32>(Layout::array, window.horizon));
-    if (have_btree()) {
-        add("btree", make_btree<locus_point32>(window.horizon));
-    }
-    return stores;
-}
-
-/// The queries: boxes around places drawn from the records, so that busy places are asked for more often.
-std::vector<locus_box> boxes(const Window &window, double radius_km, std::size_t count) {
-    std::mt19937_64 random(11);
-    std::vector<locus_box> out;
-    while (out.size() < count) {
-        const locus_point32 &centre = window.live[random() % window.live.size()];
-        out.push_back(box_around(centre.latitude, centre.longitude, radius_km));
-    }
-    return out;
-}
-
-/// Time `ask` (a query's number; returns its answer's size) over all queries: microseconds for each.
-template <class Ask>
-double per_query(std::size_t queries, std::vector<uint64_t> &answers, Ask ask) {
-    answers.assign(queries, 0);
-    const double seconds = timed([&] {
-        for (std::size_t q = 0; q < queries; ++q) {
-            answers[q] = ask(q);
-        }
-    });
-    return 1e6 * seconds / static_cast<double>(queries);
-}
 
 uint64_t scan_count(const Window &window, const locus_box &box) {
     return static_cast<uint64_t>(std::count_if(window.live.begin(), window.live.end(), [&](const locus_point32 &r) {

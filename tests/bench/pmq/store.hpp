@@ -34,11 +34,25 @@ public:
     virtual std::size_t bytes() { return 0; }
 };
 
-/// A store that can also count the 256x256 bins of a map tile.
+/// The best `out.size()` records by the space-time score with the thesis' parameters (section 3.7.6).
+struct TopK {
+    double latitude = 0, longitude = 0; // degrees
+    int64_t now = 0;
+    static constexpr std::size_t k = 100;
+    static constexpr double radius_m = 30'000, alpha = 0.2, period_us = 1e10;
+    double score(double latitude, double longitude, int64_t time) const; // infinite beyond radius and period
+};
+
+/// A store that can also count the 256x256 bins of a map tile, and rank.
 template <class Record>
 class TileStore : public Store<Record> {
 public:
     virtual void tile(const TileId &tile, std::vector<uint32_t> &bins) = 0;
+    /// The scores of the best, rising. As a store without rankings does it: read the box and keep the best.
+    virtual std::vector<double> topk(const TopK &query);
+
+private:
+    std::vector<Record> room_;
 };
 
 enum class Layout { ours, array, array_explicit };
