@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 
 namespace explorer {
 namespace {
@@ -89,6 +90,7 @@ void Feed::run(Live &live) {
         if (!stopping_.load())
             tell("ended", source.get());
     } catch (const std::exception &error) {
+        std::fprintf(stderr, "explorer: the source failed: %s\n", error.what());
         tell("failed", source.get());
         const std::lock_guard lock(mutex_);
         state_.remarks.emplace_back(error.what());

@@ -76,12 +76,12 @@ public:
     }
 
 private:
-    bool replays() const { return !options_.input.empty(); }
+    bool replays() const { return !options_.file.input.empty(); }
 
     Pace::Kind pace_kind() const {
         if (!replays())
             return Pace::Kind::wall;
-        const bool unpaced = options_.speed == 0 || (options_.speed < 0 && options_.input == "-");
+        const bool unpaced = options_.speed == 0 || (options_.speed < 0 && options_.file.input == "-");
         return unpaced ? Pace::Kind::records : Pace::Kind::replay;
     }
 
@@ -104,14 +104,17 @@ private:
             return "ingest";
         if (!replays())
             return "demo stream";
-        return options_.input == "-" ? "standard input" : std::filesystem::path(options_.input).filename().string();
+        return options_.file.input == "-" ? "standard input"
+                                          : std::filesystem::path(options_.file.input).filename().string();
     }
 
     Feed::Open source() {
         if (options_.empty)
             return nullptr;
         if (replays())
-            return [this] { return std::make_unique<demo::FileSource>(options_.input, reader_options(options_)); };
+            return [this] {
+                return std::make_unique<demo::FileSource>(options_.file.input, demo::reader_options(options_.file));
+            };
         const double past = options_.prefill >= 0 ? options_.prefill : options_.horizon;
         return [this, past] {
             // What the folder has brought back is not made again.

@@ -1,7 +1,8 @@
 // The command line, by CLI11.
 #include "explorer/options.hpp"
 
-#include <CLI/CLI.hpp>
+#include "common/command_line.hpp"
+
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -21,17 +22,8 @@ void add_source(CLI::App &app, Options &options) {
     app.add_flag("--demo", options.demo,
                  "The simulated stream, without end; what is taken where no other source is named")
         ->group(group);
-    const auto input = [&](const char *name, uint32_t format, const char *text) {
-        const auto take = [&options, format](const std::string &path) {
-            options.input = path;
-            options.format = format;
-        };
-        return app.add_option_function<std::string>(name, take, text)->type_name("FILE")->group(group);
-    };
-    CLI::Option *csv =
-        input("--csv", LOCUS_RECORDS_CSV, "CSV with column names in its first row, plain or .zst; - is standard input");
-    CLI::Option *json =
-        input("--json", LOCUS_RECORDS_NDJSON, "Newline-delimited JSON, plain or .zst; - is standard input");
+    demo::add_file_options(app, options.file, group);
+    CLI::Option *csv = app.get_option("--csv"), *json = app.get_option("--json");
     CLI::Option *empty =
         app.add_flag("--empty", options.empty, "No source but what is posted to /ingest")->group(group);
     CLI::Option *demo = app.get_option("--demo");
@@ -39,10 +31,6 @@ void add_source(CLI::App &app, Options &options) {
         for (CLI::Option *other : {csv, json, empty, demo})
             if (one != other)
                 one->excludes(other);
-    app.add_option("--time", options.time, "Name of the time column [time, timestamp, ...]")->group(group);
-    app.add_option("--lat", options.latitude, "Name of the latitude column [lat, latitude, y]")->group(group);
-    app.add_option("--lon", options.longitude, "Name of the longitude column [lon, lng, longitude, x]")->group(group);
-    app.add_option("--text", options.text, "Name of the text column [text, message, name, or none]")->group(group);
     app.add_option("--speed", options.speed, "A file: times real time; 0: as fast as it goes [1; standard input: 0]")
         ->default_str("")
         ->check(CLI::Range(0.0, 1e9))
@@ -110,26 +98,7 @@ std::optional<Options> parse_options(int argc, char **argv, int &status) {
     add_source(app, options);
     add_window(app, options);
     add_server(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError &error) {
-        status = app.exit(error) == 0 ? 0 : 2;
-        return std::nullopt;
-    }
-    return options;
-}
-
-locus_records_options reader_options(const Options &options) {
-    locus_records_options reader;
-    if (locus_records_options_init(&reader, sizeof reader) != LOCUS_OK)
-        throw std::runtime_error(locus_io_last_error());
-    const auto name = [](const std::string &text) { return text.empty() ? nullptr : text.c_str(); };
-    reader.format = options.format;
-    reader.time_column = name(options.time);
-    reader.latitude_column = name(options.latitude);
-    reader.longitude_column = name(options.longitude);
-    reader.text_column = name(options.text);
-    return reader;
+    return demo::parse(app, argc, argv, status) ? std::optional(options) : std::nullopt;
 }
 
 std::string token_of(const Options &options) {

@@ -1,7 +1,7 @@
 // The command line.
 #pragma once
 
-#include <locus/records.h>
+#include "common/file_options.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -11,11 +11,9 @@ namespace explorer {
 
 struct Options {
     // The source.
-    std::string input; // a file; empty: the demo stream
-    bool demo = false; // asked for by name
+    demo::FileOptions file; // no input: the demo stream
+    bool demo = false;      // asked for by name
     bool empty = false;
-    uint32_t format = LOCUS_RECORDS_AUTO;
-    std::string time, latitude, longitude, text; // empty: the usual names
     double rate = 100;
     double prefill = -1; // seconds; negative: the horizon
     uint64_t seed = 1;
@@ -41,9 +39,6 @@ struct Options {
 
 // Nothing: `status` is what the program ends with at once (after --help, or an error that was printed).
 std::optional<Options> parse_options(int argc, char **argv, int &status);
-
-// The library's reader options; the strings stay with `options`.
-locus_records_options reader_options(const Options &options);
 
 // The token that ingest asks for: from the command line, the file, or the environment. Throws std::runtime_error.
 std::string token_of(const Options &options);

@@ -121,12 +121,12 @@ int run(const Options &options) {
     const World world = load_world(options.data);
     std::unique_ptr<Source> source;
     std::vector<Event> events; // none are known of a file
-    if (options.input.empty()) {
+    if (options.file.input.empty()) {
         auto generator = std::make_unique<Generator>(world, generator_settings(options));
         events = generator->events();
         source = std::move(generator);
     } else {
-        source = std::make_unique<FileSource>(options.input, reader_options(options));
+        source = std::make_unique<FileSource>(options.file.input, reader_options(options.file));
     }
     const auto horizon = static_cast<int64_t>(options.window_hours * hour);
     Window window(horizon, options.layout);

@@ -1,10 +1,7 @@
 // The command line, by CLI11.
 #include "stream/options.hpp"
 
-#include <CLI/CLI.hpp>
-#include <stdexcept>
-#include <utility>
-#include <vector>
+#include "common/command_line.hpp"
 
 namespace demo {
 namespace {
@@ -15,28 +12,6 @@ constexpr const char *about =
     "  stream                                         a day of two million posts\n"
     "  stream --csv taxis.csv.zst --zoom-km 40        a file; columns time, lat, lon\n"
     "  zcat log.gz | stream --json - --text message   standard input, one JSON object a line\n";
-
-template <typename Value>
-using Choices = std::vector<std::pair<std::string, Value>>;
-
-// An option that takes one of some words; the first one is the default.
-template <typename Value>
-void add_choice(CLI::App &app, const char *name, Value &value, const Choices<Value> &choices, const char *text,
-                const char *group) {
-    std::vector<std::string> words;
-    for (const auto &[word, number] : choices)
-        words.push_back(word);
-    const auto choose = [&value, choices](const std::string &chosen) {
-        for (const auto &[word, number] : choices)
-            if (word == chosen)
-                value = number;
-    };
-    app.add_option_function<std::string>(name, choose, text)
-        ->check(CLI::IsMember(words))
-        ->type_name("")
-        ->default_str(words.front())
-        ->group(group);
-}
 
 void add_generator(CLI::App &app, Options &options) {
     const char *group = "Simulated stream";
@@ -50,43 +25,6 @@ void add_generator(CLI::App &app, Options &options) {
     app.add_option("--seed", options.seed, "Seed: the same one gives the same stream")->group(group);
     app.add_option("--events", options.events, "Planted bursts")->check(CLI::Range(0, 1000))->group(group);
     app.add_option("--start", options.start, "Its first day, YYYY-MM-DD, UTC")->group(group);
-}
-
-void add_file(CLI::App &app, Options &options) {
-    const char *group = "Stream from a file";
-    const auto input = [&app, &options, group](const char *name, uint32_t format, const char *text) {
-        return app
-            .add_option_function<std::string>(
-                name,
-                [&options, format](const std::string &path) {
-                    options.input = path;
-                    options.format = format;
-                },
-                text)
-            ->type_name("FILE")
-            ->group(group);
-    };
-    CLI::Option *csv =
-        input("--csv", LOCUS_RECORDS_CSV, "CSV with column names in its first row, plain or .zst; - is standard input");
-    input("--json", LOCUS_RECORDS_NDJSON, "Newline-delimited JSON, plain or .zst; - is standard input")->excludes(csv);
-    app.add_option("--time", options.time, "Name of the time column [time, timestamp, ...]")->group(group);
-    app.add_option("--lat", options.latitude, "Name of the latitude column [lat, latitude, y]")->group(group);
-    app.add_option("--lon", options.longitude, "Name of the longitude column [lon, lng, longitude, x]")->group(group);
-    app.add_option("--text", options.text, "Name of the text column [text, message, name, or none]")->group(group);
-    add_choice<uint32_t>(app, "--time-unit", options.time_unit,
-                         {{"auto", LOCUS_TIME_AUTO},
-                          {"s", LOCUS_TIME_SECONDS},
-                          {"ms", LOCUS_TIME_MILLISECONDS},
-                          {"us", LOCUS_TIME_MICROSECONDS},
-                          {"ns", LOCUS_TIME_NANOSECONDS}},
-                         "Unit of times that are numbers; ISO 8601 needs none", group);
-    app.add_option("--separator", options.separator, "Separator of CSV fields")->group(group);
-    add_choice<uint32_t>(app, "--bad-lines", options.bad_lines,
-                         {{"count", LOCUS_BAD_LINES_COUNT}, {"refuse", LOCUS_BAD_LINES_REFUSE}},
-                         "Lines that cannot be used: count them and go on, or refuse the file", group);
-    app.add_option("--max-line", options.max_line, "Bytes; a longer line is a bad one")
-        ->check(CLI::Range(64, 1 << 30))
-        ->group(group);
 }
 
 void add_window(CLI::App &app, Options &options) {
@@ -137,33 +75,10 @@ std::optional<Options> parse_options(int argc, char **argv, int &status) {
     app.option_defaults()->always_capture_default();
     app.get_formatter()->column_width(34);
     add_generator(app, options);
-    add_file(app, options);
+    add_file_options(app, options.file, "Stream from a file");
     add_window(app, options);
     add_results(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError &error) {
-        status = app.exit(error) == 0 ? 0 : 2;
-        return std::nullopt;
-    }
-    return options;
-}
-
-locus_records_options reader_options(const Options &options) {
-    locus_records_options reader;
-    if (locus_records_options_init(&reader, sizeof reader) != LOCUS_OK)
-        throw std::runtime_error(locus_io_last_error());
-    const auto name = [](const std::string &text) { return text.empty() ? nullptr : text.c_str(); };
-    reader.format = options.format;
-    reader.time_column = name(options.time);
-    reader.latitude_column = name(options.latitude);
-    reader.longitude_column = name(options.longitude);
-    reader.text_column = name(options.text);
-    reader.time_unit = options.time_unit;
-    reader.separator = static_cast<unsigned char>(options.separator);
-    reader.bad_lines = options.bad_lines;
-    reader.max_line = options.max_line;
-    return reader;
+    return parse(app, argc, argv, status) ? std::optional(options) : std::nullopt;
 }
 
 } // namespace demo

@@ -1,9 +1,8 @@
 // The command line.
 #pragma once
 
+#include "common/file_options.hpp"
 #include "stream/window.hpp"
-
-#include <locus/records.h>
 
 #include <cstdint>
 #include <optional>
@@ -19,14 +18,7 @@ struct Options {
     size_t events = 12;
     std::string start = "2026-03-21";
 
-    // A file instead.
-    std::string input; // empty: the generator
-    uint32_t format = LOCUS_RECORDS_AUTO;
-    std::string time, latitude, longitude, text; // empty: the usual names
-    uint32_t time_unit = LOCUS_TIME_AUTO;
-    char separator = ',';
-    uint32_t bad_lines = LOCUS_BAD_LINES_COUNT;
-    uint32_t max_line = 65536;
+    FileOptions file; // instead
 
     // The window.
     double window_hours = 6;
@@ -46,8 +38,5 @@ struct Options {
 
 // Nothing: `status` is what the program ends with at once (after --help, or an error that was printed).
 std::optional<Options> parse_options(int argc, char **argv, int &status);
-
-// The library's reader options; the strings stay with `options`.
-locus_records_options reader_options(const Options &options);
 
 } // namespace demo
