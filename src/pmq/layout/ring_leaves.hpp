@@ -25,7 +25,7 @@ public:
     void sweep(Eviction &eviction, Departures &departures) override;
     void erase(const Selection &selection, Departures &departures) override;
     void fill(const Batch &batch, Eviction &eviction, Departures &departures) override;
-    size_t fill_batch() const noexcept override { return 8192; }
+    size_t fill_batch() const noexcept override;
     std::shared_ptr<const View> view() const override;
     bool views_last() const noexcept override { return true; }
     std::shared_ptr<const Snapshot> snapshot() const override;
@@ -109,7 +109,8 @@ private:
     void install(Node &node, size_t leaf, const Target &target) noexcept;
 
     // ring_fill.cpp
-    void order_by_time(Node &node, size_t leaf, std::vector<std::byte> &scratch) const;
+    size_t filled_slots() const noexcept;
+    void fill_leaf(const Batch &batch, size_t begin, size_t end);
     void append_leaf(uint64_t key);
 
     // ring_expiry.cpp

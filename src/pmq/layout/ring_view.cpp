@@ -1,9 +1,9 @@
 // Counting and scanning leaves.
 #include "pmq/layout/ring_view.hpp"
 
+#include "pmq/layout/ring_order.hpp"
+
 #include <algorithm>
-#include <bit>
-#include <utility>
 
 namespace locus::pmq {
 
@@ -162,63 +162,6 @@ bool RingView::scan_ring(size_t position, size_t leaf, const KeyRange &keys, int
     }
     return true;
 }
-
-namespace {
-
-// Entries to be put in the order (key, arrival): keys and the numbers of their slots, given in order of arrival. A
-// leaf's keys are near each other: buckets by their leading differing bits leave little to sort.
-class LeafOrder {
-public:
-    void add(uint64_t key, size_t slot) noexcept {
-        keys_[count_] = key;
-        slots_[count_++] = static_cast<uint16_t>(slot);
-        lowest_ = std::min(lowest_, key);
-        highest_ = std::max(highest_, key);
-    }
-    size_t count() const noexcept { return count_; }
-
-    void sort(uint32_t *slots) noexcept {
-        const int bits = static_cast<int>(std::bit_width(highest_ - lowest_));
-        const int shift = std::max(bits - bucket_bits, 0);
-        uint16_t ends[(1 << bucket_bits) + 1] = {};
-        for (size_t i = 0; i < count_; ++i)
-            ++ends[(keys_[i] - lowest_) >> shift];
-        uint16_t start = 0, most = 0;
-        for (uint16_t &end : ends) {
-            most = std::max(most, end);
-            start = static_cast<uint16_t>(start + std::exchange(end, start));
-        }
-        for (size_t i = 0; i < count_; ++i)
-            sorted_[ends[(keys_[i] - lowest_) >> shift]++] = (keys_[i] - lowest_) * LeafShape::most_slots + i;
-        if (shift > 0 && most > crowded)
-            std::sort(sorted_, sorted_ + count_);
-        else if (shift > 0)
-            insertion_sort();
-        for (size_t i = 0; i < count_; ++i)
-            slots[i] = slots_[sorted_[i] % LeafShape::most_slots];
-    }
-
-private:
-    void insertion_sort() noexcept {
-        for (size_t i = 1; i < count_; ++i) {
-            const uint64_t value = sorted_[i];
-            size_t at = i;
-            for (; at > 0 && sorted_[at - 1] > value; --at)
-                sorted_[at] = sorted_[at - 1];
-            sorted_[at] = value;
-        }
-    }
-
-    static constexpr int bucket_bits = 9;
-    static constexpr uint16_t crowded = 48;
-    uint64_t keys_[LeafShape::most_slots];
-    uint64_t sorted_[LeafShape::most_slots];
-    uint16_t slots_[LeafShape::most_slots];
-    uint64_t lowest_ = UINT64_MAX, highest_ = 0;
-    size_t count_ = 0;
-};
-
-} // namespace
 
 bool RingView::scan_sorted(size_t position, size_t leaf, const KeyRange &keys, int64_t from,
                            FunctionRef<bool(const Block &)> visit) const {
