@@ -1,7 +1,8 @@
 // Which brick is visited next, and by which thread. Bricks wait in a heap by (smallest word that reaches them / width,
 // order of arrival): near enough to Dijkstra's order that few are visited in vain, coarse enough that a visit has much
-// to do. A brick is taken only while no adjacent one is being visited: a visit reads and writes nothing beyond its
-// neighbours, so no two visits touch the same memory.
+// to do. Every thread has a slab of the grid and the heap of its bricks, so that these stay in its core's cache, and
+// takes from another one where its own is empty or far ahead. A brick is taken only while no adjacent one is being
+// visited: a visit reads and writes nothing beyond its neighbours, so no two visits touch the same memory.
 #pragma once
 
 #include "graph/bricks/store.hpp"
@@ -31,6 +32,11 @@ public:
         slot_.assign(threads, Slot{});
         seen_ = 0;
         ++run_;
+        std::vector<Heap> before(threads);
+        before.swap(heap_);
+        for (const Heap &heap : before)
+            for (const Entry &entry : heap)
+                push(entry);
     }
 
     struct Work {
@@ -66,7 +72,7 @@ public:
             if (stopped_)
                 return std::nullopt;
             if (auto taken = take(thread)) {
-                if (idle_ > 0 && !heap_.empty())
+                if (idle_ > 0 && waits())
                     changed_.notify_one();
                 return taken;
             }
@@ -87,7 +93,12 @@ public:
         changed_.notify_all();
     }
 
-    size_t bytes() const { return state_.capacity() * sizeof(State) + heap_.capacity() * sizeof(Entry); }
+    size_t bytes() const {
+        size_t entries = 0;
+        for (const Heap &heap : heap_)
+            entries += heap.capacity();
+        return state_.capacity() * sizeof(State) + entries * sizeof(Entry);
+    }
     // Part of the bricks that have been visited; any thread may ask.
     double fraction() const {
         return static_cast<double>(seen_.load(std::memory_order_relaxed)) / static_cast<double>(state_.size());
@@ -95,6 +106,7 @@ public:
 
 private:
     static constexpr uint64_t kNotQueued = std::numeric_limits<uint64_t>::max();
+    static constexpr uint64_t kPatience = 2; // buckets that a thread's own bricks may come after another's
     struct State {
         Work work;
         uint64_t bucket = kNotQueued;
@@ -107,6 +119,7 @@ private:
             return bucket != other.bucket ? bucket > other.bucket : arrival > other.arrival;
         }
     };
+    using Heap = std::vector<Entry>;
     // What a thread is visiting, and the entries that had to wait for it.
     struct Slot {
         bool busy = false;
@@ -114,16 +127,31 @@ private:
         std::vector<Entry> waiting;
     };
 
+    Heap &heap_of(size_t brick) { return heap_[brick * heap_.size() / state_.size()]; }
+    bool waits() const {
+        return std::any_of(heap_.begin(), heap_.end(), [](const Heap &heap) { return !heap.empty(); });
+    }
     void push(const Entry &entry) {
-        heap_.push_back(entry);
-        std::push_heap(heap_.begin(), heap_.end());
+        Heap &heap = heap_of(entry.brick);
+        heap.push_back(entry);
+        std::push_heap(heap.begin(), heap.end());
+    }
+    // The heap that a thread takes from: its own, unless another one's first brick is due long before; null when all
+    // are empty.
+    Heap *due(unsigned thread) {
+        Heap *first = nullptr;
+        for (Heap &heap : heap_)
+            if (!heap.empty() && (first == nullptr || heap.front().bucket < first->front().bucket))
+                first = &heap;
+        Heap &own = heap_[thread];
+        return !own.empty() && own.front().bucket <= first->front().bucket + kPatience ? &own : first;
     }
 
     std::optional<Taken> take(unsigned thread) {
-        while (!heap_.empty()) {
-            std::pop_heap(heap_.begin(), heap_.end());
-            const Entry entry = heap_.back();
-            heap_.pop_back();
+        while (Heap *heap = due(thread)) {
+            std::pop_heap(heap->begin(), heap->end());
+            const Entry entry = heap->back();
+            heap->pop_back();
             State &s = state_[entry.brick];
             if (s.bucket != entry.bucket)
                 continue; // a smaller key has taken its place
@@ -177,7 +205,7 @@ private:
     std::condition_variable changed_;
     std::vector<State> state_;
     std::vector<Slot> slot_;
-    std::vector<Entry> heap_;
+    std::vector<Heap> heap_{1}; // by thread
     uint64_t arrivals_ = 0, run_ = 0;
     std::atomic<uint64_t> seen_{0};
     unsigned running_ = 0, idle_ = 0;
