@@ -43,7 +43,7 @@ public:
 private:
     void advance() {
         std::ranges::sort(lowered_);
-        lowered_.erase(std::ranges::unique(lowered_).begin(), lowered_.end());
+        lowered_.erase(std::unique(lowered_.begin(), lowered_.end()), lowered_.end());
         active_.swap(lowered_);
         lowered_.clear();
     }

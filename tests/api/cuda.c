@@ -259,13 +259,13 @@ static void falls_back(void) {
     locus_diagram *diagram = NULL;
     locus_diagram_stats stats;
     locus_weights *weights = NULL;
-    const locus_seed seed = {1, 1, 1, 0.0, 7, 0};
+    const locus_seed seeds[2] = {{1, 1, 1, 0.0, 6, 0}, {200, 1, 1, 0.0, 7, 0}};
     const uint64_t voxel = 100;
     uint32_t label = 0;
     const locus_voxel_box last = {{16383, 1, 1}, {1, 1, 1}};
     CHECK(backend_of(graph) == LOCUS_BACKEND_CUDA);
     WORKS(locus_diagram_create(graph, NULL, &diagram));
-    WORKS(locus_diagram_add_seeds(diagram, &seed, 1));
+    WORKS(locus_diagram_add_seeds(diagram, seeds, 2));
     WORKS(locus_diagram_solve(diagram, NULL, NULL));
     stats.struct_size = sizeof stats;
     WORKS(locus_diagram_get_stats(diagram, &stats));
