@@ -13,6 +13,7 @@ endif
 include tools/make/config.mk
 include tools/make/lib.mk
 include tools/make/io.mk
+include tools/make/cold.mk
 include tools/make/demo.mk
 include tools/make/test.mk
 include tools/make/check.mk

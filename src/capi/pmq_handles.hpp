@@ -18,7 +18,7 @@ struct locus_pmq_snapshot {
 namespace locus {
 
 constexpr size_t first_pmq_options_size = 144; // of locus_pmq_options, in the release that introduced it
-constexpr size_t first_query_size = 144;
+constexpr size_t first_query_size = 136;
 locus_pmq_query default_query() noexcept;
 
 // A query and the region it asks for.

@@ -56,7 +56,7 @@ std::shared_ptr<const View> Question::view(const locus_pmq &pmq) const {
         require(snapshot_->store == pmq.store, "query.snapshot is another store's");
     auto view = snapshot_ == nullptr ? pmq.store->view() : snapshot_->moment->view();
     if (left_ != nullptr)
-        *left_ = view->left();
+        *left_ = pmq.store->left(*view);
     return view;
 }
 

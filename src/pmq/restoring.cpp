@@ -68,6 +68,7 @@ void Restoring::finish() {
     store_.layout_->sweep(eviction_, store_.departures_);
     store_.layout_->insert({nullptr, nullptr, 0, INT64_MAX}, eviction_, store_.departures_); // the limit of memory
     store_.evicted_ = store_.departures_.left();
+    store_.left_apart_ = store_.departures_.left() - store_.layout_->view()->left();
     store_.now_ = moment().now;
     store_.publish_figures();
 }

@@ -36,6 +36,8 @@ public:
 
     // What the queries (query/queries.hpp) ask.
     std::shared_ptr<const View> view() const;
+    // How many records had left by a view's moment.
+    uint64_t left(const View &view) const noexcept { return left_apart_ + view.left(); }
     std::shared_ptr<const Snapshot> snapshot() const { return layout_->snapshot(); }
     locus_pmq_stats stats() const;
     void check() const;
@@ -100,6 +102,7 @@ private:
     std::vector<uint64_t> keys_;     // of the batch at work
     std::vector<std::byte> clamped_; // its records, if a time had to be changed
     uint64_t inserted_ = 0, evicted_ = 0, erased_ = 0, batches_ = 0, longest_pause_ns_ = 0;
+    uint64_t left_apart_ = 0; // records that left while the store was restored, without having been in the layout
 
     mutable Turn turn_;
     std::unique_ptr<Journal> journal_; // set while the store stands still

@@ -2,6 +2,7 @@
  * what is appended to a struct that begins with its size. */
 #include "check.h"
 
+#include <locus/cold.h>
 #include <locus/locus.h>
 #include <locus/records.h>
 #include <locus/volume.h>
@@ -307,6 +308,36 @@ int main(void) {
     FIELD(locus_pmq_stats, longest_pause_ns, 112);
     FIELD(locus_pmq_stats, density, 120);
     FIELD(locus_pmq_stats, now, 128);
+
+    SIZE(locus_cold_options, 80);
+    FIELD(locus_cold_options, struct_size, 0);
+    FIELD(locus_cold_options, record, 8);
+    FIELD(locus_cold_options, sync, 12);
+    FIELD(locus_cold_options, when_full, 16);
+    FIELD(locus_cold_options, reserved0, 20);
+    FIELD(locus_cold_options, queue_bytes, 24);
+    FIELD(locus_cold_options, batch_records, 32);
+    FIELD(locus_cold_options, delay, 40);
+    FIELD(locus_cold_options, run_records, 48);
+    FIELD(locus_cold_options, cache_bytes, 56);
+    FIELD(locus_cold_options, max_age, 64);
+    FIELD(locus_cold_options, max_bytes, 72);
+
+    SIZE(locus_cold_stats, 104);
+    FIELD(locus_cold_stats, struct_size, 0);
+    FIELD(locus_cold_stats, received, 8);
+    FIELD(locus_cold_stats, written, 16);
+    FIELD(locus_cold_stats, removed, 24);
+    FIELD(locus_cold_stats, stored, 32);
+    FIELD(locus_cold_stats, runs, 40);
+    FIELD(locus_cold_stats, queue_bytes, 48);
+    FIELD(locus_cold_stats, file_bytes, 56);
+    FIELD(locus_cold_stats, free_bytes, 64);
+    FIELD(locus_cold_stats, transactions, 72);
+    FIELD(locus_cold_stats, waits, 80);
+    FIELD(locus_cold_stats, now, 88);
+    FIELD(locus_cold_stats, failure, 96);
+    FIELD(locus_cold_stats, reserved0, 100);
 
     SIZE(locus_records_options, 80);
     FIELD(locus_records_options, struct_size, 0);

@@ -155,7 +155,7 @@ static void bad_queries(locus_pmq *pmq) {
     bow.ring_sizes = &four;
     bow.rings = 1;
     BAD_QUERY(struct_size = 0, "struct_size is 0");
-    BAD_QUERY(struct_size = sizeof query - 8, "struct_size");
+    BAD_QUERY(struct_size = 128, "struct_size");
     BAD_QUERY(region = 99, "region is 99");
     BAD_QUERY(expired = 2, "expired is 2");
     BAD_QUERY(box.south = 50, "south");

@@ -31,6 +31,7 @@ build() { # name compiler language source packages...
 build pkg-c gcc c "$source/outside.c" locus
 build pkg-cpp g++ c++ "$source/outside.c" locus
 build pkg-io gcc c "$source/outside_io.c" locus locus_io
+build pkg-cold gcc c "$source/outside_cold.c" locus_cold
 
 # An ordinary prefix is searched; a libraries' folder that CMake does not know has to be named.
 found=-DCMAKE_PREFIX_PATH=$root$prefix
@@ -38,7 +39,7 @@ found=-DCMAKE_PREFIX_PATH=$root$prefix
 cmake -S "$source" -B "$work/cmake" "$found" -DWANTED_VERSION="$version" >"$work/cmake.log" 2>&1 ||
     { cat "$work/cmake.log"; exit 1; }
 cmake --build "$work/cmake" >"$work/cmake.log" 2>&1 || { cat "$work/cmake.log"; exit 1; }
-for program in outside_c outside_cpp outside_io_c; do
+for program in outside_c outside_cpp outside_io_c outside_cold_c; do
     run shared "$work/cmake/${program}_shared"
     run static "$work/cmake/${program}_static"
 done

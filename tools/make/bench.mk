@@ -1,4 +1,4 @@
-# The benchmarks: one program, tests/bench, linked with the static library; see docs/benchmarks.md.
+# The benchmarks: one program, tests/bench, linked with the static libraries; see docs/benchmarks.md.
 # Peers are compiled in where their headers are there, so the program builds with the library's own packages alone.
 BENCH_SOURCES := $(wildcard tests/bench/*/*.cpp)
 BENCH_OBJECTS := $(BENCH_SOURCES:%=$(OUT)/%.o)
@@ -15,9 +15,9 @@ ifneq ($(filter bench,$(MAKECMDGOALS)),)
 $(BENCH_OBJECTS): | $(call needs,bench)
 endif
 
-$(BENCH_PROGRAM): $(BENCH_OBJECTS) $(LIB_STATIC)
+$(BENCH_PROGRAM): $(BENCH_OBJECTS) $(STATIC_locus_cold) $(LIB_STATIC)
 	@echo "  LD  $@"
-	@$(CXX) $^ $(bench_libraries) $(LDFLAGS_ALL) -o $@
+	@$(CXX) $^ $(LIBS_locus_cold) $(bench_libraries) $(LDFLAGS_ALL) -o $@
 
 .PHONY: bench bench-deps bench-plots check-bench
 bench: $(BENCH_PROGRAM) ## run the benchmarks into build/bench.jsonl; ONLY=regex for some, QUICK=1 for small sizes
@@ -29,7 +29,7 @@ bench-plots: | $(call needs,plots) ## draw figures 3.9 and 3.10 of the thesis fr
 	@/usr/bin/python3 tests/bench/plot.py build/bench.jsonl build
 
 # A small run of a case of each kind: the answers of ours and of the peers that were found are compared.
-CHECK_CASES := pmq\.(insert\.1M\.b100|window\.10M8\.b1000|count\.30km|read\.30km|tile\.z4|topk.*)|voronoi\.(cube128\.(gradient|maze)|plate)\.s[0-9]+|update.*
+CHECK_CASES := pmq\.(insert\.1M\.b100|window\.10M8\.b1000|count\.30km|read\.30km|cold\..*|tile\.z4|topk.*)|voronoi\.(cube128\.(gradient|maze)|plate)\.s[0-9]+|update.*
 check: check-bench
 check-bench: $(BENCH_PROGRAM)
 	$(STAGE) $@ $< --quick --out $(OUT)/bench-smoke.jsonl --only '^($(CHECK_CASES))$$'

@@ -6,10 +6,10 @@ check: $(CHECKS) ## the long tests: sanitizers, clang, SIMD=scalar, fuzzing, the
 	@echo "make check: all passed"
 
 # Areas whose latest tests have not run under the sanitizers yet: take one out when they have.
-UNSANITIZED := cpp cuda examples pmq
+UNSANITIZED := cold cpp cuda examples pmq
 SANITIZED := $(filter-out $(UNSANITIZED:%=unit-%),$(UNIT_AREAS:%=unit-%))
 # The areas whose tests use threads.
-THREADED := $(filter unit-core unit-graph unit-weights unit-pmq,$(SANITIZED))
+THREADED := $(filter unit-core unit-graph unit-weights unit-pmq unit-cold,$(SANITIZED))
 
 # clang's address sanitizer: g++'s does not see what masked vector stores write.
 check-address: | $(call needs,test check)

@@ -17,10 +17,10 @@ INSTALLED_CUDA := $(if $(NVCC),$(SHARED_CUDA))
 # What a program needs beside the static library NAME: $(call static_needs,NAME).
 static_needs = $(strip $(LIBS_$(1)) -lstdc++ -lm -pthread)
 SPACE := $() $()
-CMAKE_CALLS := $(subst $() _locus,_locus,$(foreach name,$(LIBRARIES),_locus_library($(name) "$(subst $(SPACE),;,$(call static_needs,$(name)))")\n))
+CMAKE_CALLS := $(subst $() _locus,_locus,$(foreach name,$(LIBRARIES),_locus_library($(name) "$(subst $(SPACE),;,$(call static_needs,$(name)))" "$(BASES_$(name))")\n))
 # $(call fill,TEMPLATE,FILE,NAME): put the values into a file of tools/packaging.
 fill = sed -e 's|@PREFIX@|$(PREFIX)|g' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|g' -e 's|@LIBDIR@|$(LIBDIR)|g' -e 's|@VERSION@|$(VERSION)|g' \
-    -e 's|@SOVERSION@|$(SOVERSION)|g' -e 's|@NAME@|$(3)|g' -e 's|@LIBS@|$(call static_needs,$(3))|g' -e 's|@LIBRARIES@|$(strip $(LIBRARIES))|g' \
+    -e 's|@SOVERSION@|$(SOVERSION)|g' -e 's|@NAME@|$(3)|g' -e 's|@LIBS@|$(call static_needs,$(3))|g' -e 's|@BASES@|$(BASES_$(3))|g' -e 's|@LIBRARIES@|$(strip $(LIBRARIES))|g' \
     -e 's|@INCLUDEDIR_FROM_CMAKEDIR@|$(shell realpath -m --relative-to='$(CMAKEDIR)' '$(INCLUDEDIR)')|g' \
     -e 's|@CALLS@|$(CMAKE_CALLS)|g' tools/packaging/$(1) >'$(DESTDIR)$(2)'
 

@@ -8,7 +8,7 @@ test: unit api headers exports abi memcheck install-test readme ## the quick tes
 	@echo "make test: all passed"
 
 # Unit tests: one GoogleTest program per folder of tests/unit, linked with the static libraries. UNIT_LIBS_<area>: more it needs.
-STATIC_LINK = $(foreach name,$(LIBRARIES),$(STATIC_$(name)) $(LIBS_$(name)))
+STATIC_LINK = $(foreach name,$(LIBRARIES),$(STATIC_$(name)) $(LIBS_$(name)) $(BASES_$(name):%=$(OUT)/lib%.a))
 UNIT_AREAS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/unit/*/*.cpp)))))
 UNIT_OBJECTS := $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/*/*.cpp))
 $(UNIT_OBJECTS): EXTRA_CPPFLAGS += -I.

@@ -38,6 +38,24 @@ class AlertsStats:
 
 
 @dataclass(frozen=True)
+class ColdStats:
+    """locus_cold_stats."""
+
+    received: int
+    written: int
+    removed: int
+    stored: int
+    runs: int
+    queue_bytes: int
+    file_bytes: int
+    free_bytes: int
+    transactions: int
+    waits: int
+    now: int
+    failure: int
+
+
+@dataclass(frozen=True)
 class GraphInfo:
     """locus_graph_info."""
 

@@ -66,7 +66,7 @@ public:
     virtual ~View() = default;
     virtual const RecordFormat &format() const noexcept = 0;
     virtual Moment moment() const noexcept = 0;
-    // How many records had left the store by then.
+    // How many records had left the layout by then.
     virtual uint64_t left() const noexcept = 0;
     // No stored record is older.
     virtual int64_t oldest() const noexcept = 0;

@@ -37,6 +37,7 @@ void add_pmq_window(Cases &cases);
 void add_pmq_queries(Cases &cases);
 void add_pmq_storage(Cases &cases);
 void add_pmq_topk(Cases &cases);
+void add_pmq_cold(Cases &cases);
 void add_voronoi(Cases &cases);
 void add_updates(Cases &cases);
 void add_weights(Cases &cases);

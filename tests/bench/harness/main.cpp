@@ -42,6 +42,7 @@ Cases all_cases() {
     add_pmq_queries(cases);
     add_pmq_storage(cases);
     add_pmq_topk(cases);
+    add_pmq_cold(cases);
     add_voronoi(cases);
     add_updates(cases);
     add_weights(cases);

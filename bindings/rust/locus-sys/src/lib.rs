@@ -293,6 +293,44 @@ pub struct locus_alerts_stats {
 zeroed!(locus_alerts_stats);
 
 #[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct locus_cold_options {
+    pub struct_size: u64,
+    pub record: u32,
+    pub sync: u32,
+    pub when_full: u32,
+    pub reserved0: u32,
+    pub queue_bytes: u64,
+    pub batch_records: u64,
+    pub delay: i64,
+    pub run_records: u64,
+    pub cache_bytes: u64,
+    pub max_age: i64,
+    pub max_bytes: u64,
+}
+zeroed!(locus_cold_options);
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct locus_cold_stats {
+    pub struct_size: u64,
+    pub received: u64,
+    pub written: u64,
+    pub removed: u64,
+    pub stored: u64,
+    pub runs: u64,
+    pub queue_bytes: u64,
+    pub file_bytes: u64,
+    pub free_bytes: u64,
+    pub transactions: u64,
+    pub waits: u64,
+    pub now: i64,
+    pub failure: i32,
+    pub reserved0: u32,
+}
+zeroed!(locus_cold_stats);
+
+#[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct locus_graph_options {
     pub struct_size: u64,
