@@ -4,7 +4,6 @@
 #include "pmq/layout/ring_order.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace locus::pmq {
 namespace {
@@ -33,27 +32,31 @@ void RingLeaves::fill_leaf(const Batch &batch, size_t begin, size_t end) {
     const Node &last = own(directory().size() - 1);
     if (last.leaf[last.leaves - 1].count > 0)
         append_leaf(batch.keys[begin]);
-    LeafOrder by_time;
-    bool arrival_known = false; // to be another order than that of time
+    const auto time_of = [&](size_t i) { return format_.time(batch.records + i * format_.size); };
+    int64_t oldest = INT64_MAX, newest = INT64_MIN;
+    bool in_time = true; // the order of arrival, where it is known
     for (size_t i = begin; i < end; ++i) {
-        const int64_t time = format_.time(batch.records + i * format_.size);
-        by_time.add(static_cast<uint64_t>(time) ^ uint64_t{1} << 63, i - begin);
-        arrival_known = arrival_known || (i > begin && batch.keys[i] == batch.keys[i - 1] &&
-                                          time < format_.time(batch.records + (i - 1) * format_.size));
-        newest_ = std::max(newest_, time);
+        oldest = std::min(oldest, time_of(i));
+        newest = std::max(newest, time_of(i));
+        in_time = in_time && (i == begin || batch.keys[i] != batch.keys[i - 1] || time_of(i) >= time_of(i - 1));
         if (ages_.wanted())
-            ages_.add(time);
+            ages_.add(time_of(i));
     }
-    uint32_t order[LeafShape::most_slots];
-    if (arrival_known || !by_time.sortable())
-        std::iota(order, order + (end - begin), 0);
-    else
-        by_time.sort(order);
+    newest_ = std::max(newest_, newest);
+    const auto age = [&](int64_t time) { return static_cast<uint64_t>(time) - static_cast<uint64_t>(oldest); };
+    const bool sorts = in_time && age(newest) < LeafOrder::values;
+    LeafOrder order;
+    for (size_t i = begin; i < end && sorts; ++i)
+        order.add(age(time_of(i)), i - begin);
+    if (sorts)
+        order.sort();
     Node &node = own(directory().size() - 1);
     const size_t leaf = node.leaves - 1u;
     Target target{node.leaf[leaf].memory};
-    for (size_t i = 0; i < end - begin; ++i)
-        add(target, batch.keys[begin + order[i]], batch.records + (begin + order[i]) * format_.size);
+    for (size_t n = 0; n < end - begin; ++n) {
+        const size_t i = begin + (sorts ? order.number(n) : n);
+        add(target, batch.keys[i], batch.records + i * format_.size);
+    }
     install(node, leaf, target);
     edition().stored += target.count;
 }

@@ -10,60 +10,65 @@
 
 namespace locus::pmq {
 
-// Entries to be put in order, stably: values and the numbers of their slots. A leaf's keys are near each other, and so
-// are its times: buckets by their leading differing bits leave little to sort.
+// Entries to be put in order: their values and, where these are equal, their numbers. The values of a leaf are near
+// each other: the leading 16 of the bits in which they differ leave little to sort.
 class LeafOrder {
 public:
-    void add(uint64_t value, size_t slot) noexcept {
-        values_[count_] = value;
-        slots_[count_++] = static_cast<uint16_t>(slot);
+    static constexpr uint64_t values = uint64_t{1} << 55; // all are smaller
+
+    void add(uint64_t value, size_t number) noexcept {
+        entries_[count_++] = value * LeafShape::most_slots + number;
         lowest_ = std::min(lowest_, value);
         highest_ = std::max(highest_, value);
     }
     size_t count() const noexcept { return count_; }
+    size_t number(size_t i) const noexcept { return entries_[i] % LeafShape::most_slots; } // of the i-th, once sorted
 
-    // Only then can they be sorted: keys always, times within a thousand years.
-    bool sortable() const noexcept { return (highest_ - lowest_) >> (64 - slot_bits) == 0; }
-
-    // The slots in order of their values.
-    void sort(uint32_t *slots) noexcept {
-        const int bits = static_cast<int>(std::bit_width(highest_ - lowest_));
-        const int shift = std::max(bits - bucket_bits, 0);
-        uint16_t ends[(1 << bucket_bits) + 1] = {};
-        for (size_t i = 0; i < count_; ++i)
-            ++ends[(values_[i] - lowest_) >> shift];
-        uint16_t start = 0, most = 0;
-        for (uint16_t &end : ends) {
-            most = std::max(most, end);
-            start = static_cast<uint16_t>(start + std::exchange(end, start));
+    // Two passes of a radix sort, and insertion.
+    void sort() noexcept {
+        const uint64_t base = lowest_ * LeafShape::most_slots;
+        const int bits = static_cast<int>(std::bit_width((highest_ - lowest_) * LeafShape::most_slots));
+        const int low = std::max(bits - 2 * digit_bits, 0), high = low + digit_bits;
+        uint16_t lows[digits] = {}, highs[digits] = {};
+        for (size_t i = 0; i < count_; ++i) {
+            const uint64_t entry = entries_[i] -= base;
+            ++lows[(entry >> low) % digits];
+            ++highs[entry >> high];
+        }
+        uint16_t low_start = 0, high_start = 0;
+        for (size_t i = 0; i < digits; ++i) {
+            low_start = static_cast<uint16_t>(low_start + std::exchange(lows[i], low_start));
+            high_start = static_cast<uint16_t>(high_start + std::exchange(highs[i], high_start));
         }
         for (size_t i = 0; i < count_; ++i)
-            sorted_[ends[(values_[i] - lowest_) >> shift]++] = (values_[i] - lowest_) * LeafShape::most_slots + i;
-        if (shift > 0 && most > crowded)
-            std::sort(sorted_, sorted_ + count_);
-        else if (shift > 0)
-            insertion_sort();
+            halfway_[lows[(entries_[i] >> low) % digits]++] = entries_[i];
         for (size_t i = 0; i < count_; ++i)
-            slots[i] = slots_[sorted_[i] % LeafShape::most_slots];
+            entries_[highs[halfway_[i] >> high]++] = halfway_[i];
+        insert_strays();
     }
 
 private:
-    void insertion_sort() noexcept {
+    void insert_strays() noexcept {
+        size_t moves = 0;
         for (size_t i = 1; i < count_; ++i) {
-            const uint64_t value = sorted_[i];
+            const uint64_t entry = entries_[i];
             size_t at = i;
-            for (; at > 0 && sorted_[at - 1] > value; --at)
-                sorted_[at] = sorted_[at - 1];
-            sorted_[at] = value;
+            for (; at > 0 && entries_[at - 1] > entry; --at)
+                entries_[at] = entries_[at - 1];
+            entries_[at] = entry;
+            moves += i - at;
+            if (moves > most_moves) {
+                std::sort(entries_, entries_ + count_);
+                return;
+            }
         }
     }
 
-    static constexpr int slot_bits = std::bit_width(LeafShape::most_slots - 1);
-    static constexpr int bucket_bits = 9;
-    static constexpr uint16_t crowded = 48;
-    uint64_t values_[LeafShape::most_slots];
-    uint64_t sorted_[LeafShape::most_slots];
-    uint16_t slots_[LeafShape::most_slots];
+    static constexpr int digit_bits = 8;
+    static constexpr size_t digits = size_t{1} << digit_bits;
+    static constexpr size_t most_moves = 8 * LeafShape::most_slots;
+    uint64_t entries_[LeafShape::most_slots];
+    uint64_t halfway_[LeafShape::most_slots];
     uint64_t lowest_ = UINT64_MAX, highest_ = 0;
     size_t count_ = 0;
 };

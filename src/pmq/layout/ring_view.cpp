@@ -166,20 +166,24 @@ bool RingView::scan_ring(size_t position, size_t leaf, const KeyRange &keys, int
 bool RingView::scan_sorted(size_t position, size_t leaf, const KeyRange &keys, int64_t from,
                            FunctionRef<bool(const Block &)> visit) const {
     const Node &node = *edition_.directory[position];
+    const size_t head = node.leaf[leaf].head, count = node.leaf[leaf].count;
     Block block = slots_of(node, leaf);
     LeafOrder order;
+    const bool all = within(position, leaf, keys);
     const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf].memory);
-    for (size_t i = skip_older(node, leaf, from, block); i < node.leaf[leaf].count; ++i) {
-        const size_t slot = shape_.slot(node.leaf[leaf].head, i);
-        if (!keys.contains(leaf_keys[slot]))
+    for (size_t i = skip_older(node, leaf, from, block); i < count; ++i) {
+        const size_t slot = shape_.slot(head, i);
+        if (!all && !keys.contains(leaf_keys[slot]))
             continue;
-        order.add(leaf_keys[slot], slot);
+        order.add(leaf_keys[slot], i);
         __builtin_prefetch(block.record(slot));
     }
     if (order.count() == 0)
         return true;
+    order.sort();
     uint32_t slots[LeafShape::most_slots];
-    order.sort(slots);
+    for (size_t i = 0; i < order.count(); ++i)
+        slots[i] = static_cast<uint32_t>(shape_.slot(head, order.number(i)));
     block.order = slots;
     block.count = order.count();
     block.within = true;

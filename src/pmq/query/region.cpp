@@ -91,8 +91,6 @@ Relation BoxRegion::relate(const Quadrant &quadrant) const noexcept {
     return relate(keys.lo, keys.hi - 1);
 }
 
-Relation BoxRegion::relate(uint64_t key) const noexcept { return relate(key, key); }
-
 bool BoxRegion::contains(double latitude, double longitude) const noexcept {
     if (latitude < box_.south || latitude > box_.north)
         return false;

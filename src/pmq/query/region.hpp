@@ -5,6 +5,7 @@
 
 #include <locus/pmq.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -12,9 +13,13 @@ namespace locus::pmq {
 
 enum class Relation { outside, edge, inside };
 
+class BoxRegion;
+
 class Region {
 public:
     virtual ~Region() = default;
+    // Itself, if it is one: it can be asked about a key without a call.
+    virtual const BoxRegion *as_box() const noexcept { return nullptr; }
     // How the places whose key lies in the quadrant relate to the region. `edge` may be said of any quadrant: its
     // records are then tested one by one. Latitudes beyond the Mercator square have the keys of its edge rows.
     virtual Relation relate(const Quadrant &quadrant) const noexcept = 0;
@@ -29,8 +34,15 @@ class BoxRegion final : public Region {
 public:
     explicit BoxRegion(const locus_box &box);
     Relation relate(const Quadrant &quadrant) const noexcept override;
-    Relation relate(uint64_t key) const noexcept override;
+    Relation relate(uint64_t key) const noexcept override { return relate_quickly(key); }
     bool contains(double latitude, double longitude) const noexcept override;
+    const BoxRegion *as_box() const noexcept override { return this; }
+    // relate(key), with no branch to mispredict.
+    Relation relate_quickly(uint64_t key) const noexcept {
+        const uint64_t x = key & key_x_mask, y = (key & key_y_mask) >> 1;
+        const unsigned column = std::max(columns_[0].rank(x), parts_ > 1 ? columns_[1].rank(x) : 0);
+        return static_cast<Relation>(std::min(column, rows_.rank(y)));
+    }
 
 private:
     // Columns or rows of the map, bits spread as in keys (x at the even bits, y shifted down to them): outside
@@ -39,6 +51,12 @@ private:
         uint64_t outer_first, outer_last, inner_first, inner_last;
         static Cells between(int64_t first, int64_t last, bool open_first, bool open_last) noexcept;
         Relation relate(uint64_t first, uint64_t last) const noexcept;
+        // The number of relate(cell, cell).
+        unsigned rank(uint64_t cell) const noexcept {
+            const bool outer = (cell >= outer_first) & (cell <= outer_last);
+            const bool inner = (cell >= inner_first) & (cell <= inner_last);
+            return unsigned{outer} + unsigned{inner};
+        }
     };
     Relation relate(uint64_t first_key, uint64_t last_key) const noexcept;
     void add_columns(double west, double east) noexcept;

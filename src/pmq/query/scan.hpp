@@ -11,7 +11,8 @@ class Acceptance {
 public:
     Acceptance(const View &view, const Selection &selection, const RangeAt &range)
         : format_(view.format()), selection_(selection), keys_(range.keys),
-          region_(range.inside ? nullptr : selection.region), late_(selection.times.to < view.moment().now) {}
+          region_(range.inside ? nullptr : selection.region), box_(region_ ? region_->as_box() : nullptr),
+          late_(selection.times.to < view.moment().now) {}
 
     bool operator()(const Block &block, size_t entry) const noexcept {
         const uint64_t key = block.key(entry);
@@ -24,23 +25,50 @@ public:
                (!selection_.filter || selection_.filter(record, selection_.filter_user) != 0);
     }
     // Every entry of the block is accepted.
-    bool all_of(const Block &block) const noexcept {
-        return block.within && !region_ && !late_ && !selection_.filter && selection_.times.from <= block.oldest;
+    bool all_of(const Block &block) const noexcept { return block.within && !region_ && only_place_matters(block); }
+    size_t count(const Block &block) const noexcept {
+        if (all_of(block))
+            return block.count;
+        if (box_ && only_place_matters(block))
+            return count_in_box(block);
+        size_t total = 0;
+        for (size_t i = 0; i < block.count; ++i)
+            total += (*this)(block, block.entry(i));
+        return total;
     }
 
 private:
+    bool only_place_matters(const Block &block) const noexcept {
+        return !late_ && !selection_.filter && selection_.times.from <= block.oldest;
+    }
+    size_t count_in_box(const Block &block) const noexcept {
+        size_t total = 0;
+        for (size_t i = 0; i < block.count; ++i) {
+            const size_t entry = block.entry(i);
+            const uint64_t key = block.key(entry);
+            const bool looked_for = block.within || keys_.contains(key);
+            const Relation relation = looked_for ? box_->relate_quickly(key) : Relation::outside;
+            total += relation == Relation::inside;
+            if (relation == Relation::edge) [[unlikely]]
+                total += in_region(block.record(entry));
+        }
+        return total;
+    }
     bool place_accepted(uint64_t key, Bytes record) const noexcept {
         if (!region_)
             return true;
-        const Relation relation = region_->relate(key);
-        return relation == Relation::inside ||
-               (relation == Relation::edge && region_->contains(format_.latitude(record), format_.longitude(record)));
+        const Relation relation = box_ ? box_->relate_quickly(key) : region_->relate(key);
+        return relation == Relation::inside || (relation == Relation::edge && in_region(record));
+    }
+    bool in_region(Bytes record) const noexcept {
+        return region_->contains(format_.latitude(record), format_.longitude(record));
     }
 
     const RecordFormat &format_;
     const Selection &selection_;
     KeyRange keys_;
     const Region *region_; // to be asked
+    const BoxRegion *box_; // the same, if it is a box
     bool late_;            // records may lie behind the end of the time window
 };
 
@@ -64,9 +92,10 @@ inline uint64_t count_in(const View &view, const Selection &live, const RangeAt 
     const bool plain = range.inside && !live.filter && live.times.to >= view.moment().now;
     if (plain)
         return view.count(range.place, range.keys, live.times.from);
+    const Acceptance accepted(view, live, range);
     uint64_t total = 0;
-    scan_accepted(view, live, range, Order::any, [&](const Block &, size_t) {
-        ++total;
+    view.scan(range.place, range.keys, live.times.from, Order::any, [&](const Block &block) {
+        total += accepted.count(block);
         return true;
     });
     return total;

@@ -53,11 +53,25 @@ private:
                 add(places_.of(block.lowest), block.count);
                 return true;
             }
+            if (all && places_.by_key()) {
+                add_all(block);
+                return true;
+            }
             for (size_t i = 0; i < block.count; ++i)
                 if (const size_t entry = block.entry(i); all || accepted(block, entry))
                     add(places_.of(block.key(entry), block.record(entry)), 1);
             return true;
         });
+    }
+
+    void add_all(const Block &block) noexcept {
+        const TileBins places = places_; // counting cannot change it, as the compiler sees
+        uint32_t *bins = bins_.data();
+        for (size_t i = 0; i < block.count; ++i) {
+            uint32_t &bin = bins[places.of(block.key(block.entry(i)))];
+            bin += bin != std::numeric_limits<uint32_t>::max();
+        }
+        total_ += block.count;
     }
 
     void add(size_t bin, uint64_t count) noexcept {
