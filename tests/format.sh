@@ -3,12 +3,12 @@
 set -u
 failed=0
 code=(git ls-files '*.c' '*.h' '*.cpp' '*.hpp' '*.cu' '*.cuh')
-text=("${code[@]}" '*.mk' '*.sh' '*.py' '*.js' '*.rs' '*.md' '*.txt' Makefile .ci/run)
+text=("${code[@]}" '*.mk' '*.sh' '*.py' '*.js' '*.ts' '*.rs' '*.md' '*.txt' Makefile .ci/run)
 
 for file in $("${code[@]}"); do
     clang-format "$file" | cmp -s - "$file" || { echo "not as clang-format has it (make format): $file"; failed=1; }
 done
-long=$("${code[@]}" '*.mk' '*.sh' '*.py' '*.js' '*.rs' | xargs wc -l | awk '$2 != "total" && $1 > 800')
+long=$("${code[@]}" '*.mk' '*.sh' '*.py' '*.js' '*.ts' '*.rs' | xargs wc -l | awk '$2 != "total" && $1 > 800')
 [ -z "$long" ] || { echo "longer than 800 lines:"; echo "$long"; failed=1; }
 notes=$("${text[@]}" | grep -vxF tests/format.sh | xargs grep -nE '\b(TODO|FIXME|XXX)\b|/work/|/home/[a-z]' || true)
 [ -z "$notes" ] || { echo "notes to come back to, or paths of one machine:"; echo "$notes"; failed=1; }

@@ -9,7 +9,7 @@ failed=0
 bindings() {
     echo 'bindings/cpp \bFUNCTION\b include/locus/*.hpp'
     echo 'bindings/python \.FUNCTION\b bindings/python/locus/*.py :!bindings/python/locus/_ffi.py'
-    echo 'bindings/node \bFUNCTION\b bindings/node/lib/*'
+    echo 'bindings/node \bFUNCTION\b bindings/node/lib/*.js :!bindings/node/lib/interface.js'
     echo 'bindings/rust \bFUNCTION\b bindings/rust/locus/src/*'
 }
 exported=$(sed -nE 's/^ *(locus_[a-z0-9_]+);.*/\1/p' src/*.map)

@@ -1,11 +1,22 @@
 # The bindings: other languages on the C interface alone. `make check` runs their tests.
-.PHONY: bindings bindings-cpp bindings-python bindings-rust bindings-coverage tutorial-python
-bindings: bindings-cpp bindings-python bindings-rust bindings-coverage ## test the bindings to other languages
+.PHONY: bindings bindings-cpp bindings-node bindings-python bindings-rust bindings-coverage tour-node tutorial-python
+bindings: bindings-cpp bindings-node bindings-python bindings-rust bindings-coverage ## test the bindings to other languages
 check: bindings
 
 # The C++ types of include/locus/*.hpp; their unit tests are unit-cpp.
 bindings-cpp: $(SHARED_locus) | $(call needs,test)
 	$(STAGE) $(FLAVOUR)$@ tests/bindings/cpp.sh $(OUT)
+
+# The Node.js package: koffi, and the compiler that checks the types, from npm at the versions of the lock file.
+NODE_MODULES := bindings/node/node_modules/.package-lock.json
+NODE_HERE = LOCUS_LIBRARY=$(abspath $(SHARED_locus)) LOCUS_IO_LIBRARY=$(abspath $(SHARED_locus_io))
+$(NODE_MODULES): bindings/node/package-lock.json | $(call needs,bindings)
+	@npm ci --prefix bindings/node --ignore-scripts --no-audit --no-fund --silent
+	@touch $@
+bindings-node: $(SHARED_locus) $(SHARED_locus_io) $(NODE_MODULES) | $(call needs,test bindings)
+	$(STAGE) $(FLAVOUR)$@ env $(NODE_HERE) tests/bindings/node.sh $(OUT)/node
+tour-node: $(SHARED_locus) $(SHARED_locus_io) $(NODE_MODULES) | $(call needs,bindings) ## tour both engines from Node.js, with a heat map in build/tour.png
+	@env $(NODE_HERE) node bindings/node/examples/tour.js build/tour.png
 
 # The Python package: its tests, its layout of structs, pip install into a scratch folder. PYTHON is Debian's, which has numpy and cffi.
 PYTHON ?= /usr/bin/python3

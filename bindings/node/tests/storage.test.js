@@ -1,0 +1,62 @@
+// Stores on disk.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import test from 'node:test';
+import { pathToFileURL } from 'node:url';
+import * as locus from '../lib/index.js';
+import { NOON, posts, scratch, thrown } from './common.js';
+
+test('files come back', async (t) => {
+  const file = scratch(t);
+  const store = new locus.Store();
+  const records = posts(1000);
+  store.insertSync(records, NOON + 1e10);
+  const moment = store.snapshot();
+  store.insertSync(records.subarray(0, 10), NOON + 1e10);
+  const told = [];
+  await store.save(file('now'), { progress: (fraction) => void told.push(fraction) });
+  moment.saveSync(file('before'));
+  assert.ok(told.every((fraction, i) => i === 0 || told[i - 1] <= fraction));
+  assert.equal(locus.fileInfo(file('now')).records, 1010);
+  assert.deepEqual((await (await locus.Store.load(file('now'))).read()).bytes, store.readSync().bytes);
+  const packed = locus.Store.loadSync(pathToFileURL(file('before')), { layout: 'packed_array' });
+  assert.deepEqual(packed.readSync().bytes, moment.readSync().bytes);
+  await assert.rejects(locus.Store.load(file('now'), { record: 'text156' }), locus.ArgumentError);
+  await assert.rejects(locus.Store.load(file('none')), (error) => error instanceof locus.IoError && /none/.test(error.message));
+  const whole = readFileSync(file('now'));
+  whole[500] ^= 1;
+  writeFileSync(file('now'), whole);
+  thrown(() => locus.Store.loadSync(file('now')), locus.FormatError);
+  await assert.rejects(store.save(file('before'), { signal: AbortSignal.abort() }), { name: 'AbortError' });
+  thrown(() => store.saveSync(file('before'), { progress: () => false }), locus.StoppedError);
+  assert.equal(locus.fileInfo(file('before')).records, 1000);
+});
+
+test('folders recover', async (t) => {
+  const file = scratch(t);
+  const records = posts(100);
+  const store = await locus.Store.open(file('folder'), { sync: 'interval', syncInterval: locus.SECOND });
+  assert.equal(store.recovery.created, 1);
+  await store.insert(records, NOON + 1e9);
+  assert.deepEqual([store.logStats.changes, store.logStats.attached], [1, 1]);
+  await store.flush();
+  await store.checkpoint();
+  store.insertSync(records.subarray(0, 10), NOON + 1e9);
+  const before = store.readSync();
+  await assert.rejects(locus.Store.open(file('folder')), locus.BusyError);
+  store.dispose();
+  const gone = [];
+  const again = locus.Store.openSync(file('folder'), { sink: (left) => gone.push(...left) });
+  assert.deepEqual([again.recovery.saved, again.recovery.inserted], [100, 10]);
+  assert.deepEqual(again.readSync().bytes, before.bytes);
+  again.eraseSync();
+  assert.equal(gone.length, 110);
+  const plain = new locus.Store();
+  await assert.rejects(plain.attach(file('folder')), locus.BusyError);
+  plain.attachSync(file('other'), { sync: 'none', keep: 0 });
+  plain.checkpointSync();
+  plain.flushSync();
+  await plain.check();
+  assert.equal(plain.logStats.attached, 1);
+  assert.equal(plain.recovery, undefined);
+});
