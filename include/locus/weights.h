@@ -102,13 +102,13 @@ LOCUS_API locus_status locus_weights_gradients(const locus_weights *weights, uin
                                                uint32_t id, float *gradients, size_t capacity) LOCUS_NOEXCEPT;
 
 /* Bring the weights up to date with their diagram after its graph or its seeds changed and it was solved or updated
- * again: only the rows that can have changed are recomputed (with the distance ratio all are, and those that differ are
- * named), and all of them equal those of freshly made weights. Their numbers, in rising order, go into `changed` with
- * room for `capacity` (NULL with capacity 0: not wanted); `*count` (may be NULL) is how many there are. Works also when
- * the diagram's own handle was destroyed. Errors: LOCUS_E_STATE (the diagram is unsolved, or its graph or seeds changed
- * since), LOCUS_E_CAPACITY (the rows are up to date, the first `capacity` numbers
- * were stored), LOCUS_E_MEMORY and LOCUS_E_STOPPED (the rows are as before). Not beside any other call on the weights,
- * or calls that change the diagram. Since 0.1. */
+ * again: only the rows that can have changed are recomputed, and all of them equal those of freshly made weights. Their
+ * numbers (with the distance ratio only those of rows that did change), in rising order, go into `changed` with room
+ * for `capacity` (NULL with capacity 0: not wanted); `*count` (may be NULL) is how many there are. Works also when the
+ * diagram's own handle was destroyed. Errors: LOCUS_E_STATE (the diagram is unsolved, or its graph or seeds changed
+ * since), LOCUS_E_CAPACITY (the rows are up to date, the first `capacity` numbers were stored), LOCUS_E_MEMORY and
+ * LOCUS_E_STOPPED (the rows are as before). Not beside any other call on the weights, or calls that change the diagram.
+ * Since 0.1. */
 LOCUS_API locus_status locus_weights_update(locus_weights *weights, uint64_t *changed, size_t capacity,
                                             size_t *count) LOCUS_NOEXCEPT;
 

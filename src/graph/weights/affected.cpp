@@ -3,9 +3,7 @@
 #include "graph/weights/field.hpp"
 
 namespace locus::graph {
-namespace {
 
-// Voxels with another word, or in a box that was edited.
 std::vector<bool> changed_voxels(const Graph &graph, const Words &before, uint64_t version, const Words &now) {
     const Grid &grid = graph.grid();
     std::vector<bool> changed(grid.voxels());
@@ -29,21 +27,24 @@ std::vector<bool> changed_voxels(const Graph &graph, const Words &before, uint64
     return changed;
 }
 
-} // namespace
-
-std::vector<bool> affected_voxels(const Graph &graph, const Words &before, uint64_t version, const Words &now) {
-    const Grid &grid = graph.grid();
-    const Field field(graph, now);
-    std::vector<bool> affected = changed_voxels(graph, before, version, now);
-    std::vector<bool> near = affected;
+std::vector<bool> with_neighbours(const Grid &grid, const std::vector<bool> &voxels) {
+    std::vector<bool> near = voxels;
     for (uint64_t v = 0; v < grid.voxels(); ++v) {
-        if (!affected[v])
+        if (!voxels[v])
             continue;
         const uint32_t inside = grid.inside(grid.place(v));
         for (const Neighbour &to : grid.neighbours())
             if (inside >> to.number & 1)
                 near[v + static_cast<uint64_t>(to.step)] = true;
     }
+    return near;
+}
+
+std::vector<bool> affected_voxels(const Graph &graph, const Words &before, uint64_t version, const Words &now) {
+    const Grid &grid = graph.grid();
+    const Field field(graph, now);
+    std::vector<bool> affected = changed_voxels(graph, before, version, now);
+    const std::vector<bool> near = with_neighbours(grid, affected);
     uint64_t most = 0;
     for (uint64_t v = 0; v < grid.voxels(); ++v)
         if (near[v] && field.reached(v))

@@ -1,4 +1,4 @@
-// Which voxels' natural-neighbour rows can have changed after a diagram changed.
+// Which voxels' rows can have changed after a diagram changed.
 #pragma once
 
 #include "graph/engine.hpp"
@@ -7,8 +7,14 @@
 
 namespace locus::graph {
 
-// True for the voxels whose rows may differ between the diagram `before`, solved at version `version` of the graph, and
-// the one `now`, solved at the present one; slots must mean the same seeds in both.
+// True for the voxels with another word in `now` than in `before`, which was solved at version `version` of the graph,
+// and for those in boxes edited since.
+std::vector<bool> changed_voxels(const Graph &graph, const Words &before, uint64_t version, const Words &now);
+// The same voxels and all their neighbours.
+std::vector<bool> with_neighbours(const Grid &grid, const std::vector<bool> &voxels);
+
+// True for the voxels whose natural-neighbour rows may differ between the diagram `before`, solved at version `version`
+// of the graph, and the one `now`, solved at the present one; slots must mean the same seeds in both.
 //
 // A row depends on what its search sees: the words and edges of the stolen voxels and of their neighbours. Where none
 // of these changed, the search runs as before. So a voxel q is affected if it changed itself or steals a voxel u that

@@ -14,7 +14,9 @@ constexpr uint32_t no_label = UINT32_MAX;
 // A voxel that no seed reaches is treated as impassable: no weight can come from there, and nothing is stolen there.
 class Field {
 public:
-    Field(const Graph &graph, const Words &words) : graph_(graph), words_(words), layout_(graph.layout()) {}
+    Field(const Graph &graph, const Words &words)
+        : graph_(graph), words_(words), layout_(graph.layout()), narrow_(data<uint32_t>(words)),
+          wide_(data<uint64_t>(words)) {}
 
     const Graph &graph() const { return graph_; }
     const Grid &grid() const { return graph_.grid(); }
@@ -33,13 +35,18 @@ public:
     }
 
 private:
-    uint64_t word(uint64_t voxel) const {
-        return std::visit([&](const auto &words) -> uint64_t { return words[voxel]; }, words_);
+    uint64_t word(uint64_t voxel) const { return narrow_ != nullptr ? narrow_[voxel] : wide_[voxel]; }
+    template <typename Word>
+    static const Word *data(const Words &words) {
+        const auto *held = std::get_if<std::vector<Word>>(&words);
+        return held != nullptr ? held->data() : nullptr;
     }
 
     const Graph &graph_;
     const Words &words_;
     WordLayout layout_;
+    const uint32_t *narrow_; // one of the two is null
+    const uint64_t *wide_;
 };
 
 } // namespace locus::graph

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace locus::graph {
@@ -67,22 +68,27 @@ void Interpolation::check_diagram() const {
 
 void Interpolation::compute_all() {
     check_diagram();
-    adopt(compute({}, nullptr));
+    adopt(compute(sources(), {}, nullptr));
 }
 
-// The rows with seeds by slot.
-Rows Interpolation::compute(std::span<const uint64_t> rows, const Rows *base) const {
+// Where the diagram's seeds start, by slot.
+std::vector<Source> Interpolation::sources() const {
+    std::vector<Source> sources;
+    for (const Seed &seed : diagram_->solved_seeds())
+        sources.push_back({seed.voxel, seed.steps, seed.slot});
+    return sources;
+}
+
+// The rows with seeds by slot; `seeds` for the distance ratio, those that can weigh in them.
+Rows Interpolation::compute(std::span<const Source> seeds, std::span<const uint64_t> rows, const Rows *base) const {
     Progress progress(options_.progress, options_.progress_user);
     const Graph &graph = diagram_->graph();
     const Field field(graph, diagram_->words());
     if (options_.method == LOCUS_METHOD_DISTANCE_RATIO) {
-        std::vector<Source> seeds;
-        for (const Seed &seed : diagram_->solved_seeds())
-            seeds.push_back({seed.voxel, seed.steps, seed.slot});
-        const RowPile pile = ratio_rows(
-            {field, seeds, options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(), voxels_},
-            progress);
-        return assemble(voxels_.size(), {&pile, 1});
+        const RatioJob job{field,   seeds, options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(),
+                           voxels_, rows};
+        const RowPile pile = ratio_rows(job, progress);
+        return assemble(voxels_.size(), {&pile, 1}, base);
     }
     const NaturalJob job{
         field, options_.method, options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(), voxels_,
@@ -114,13 +120,19 @@ bool Interpolation::same_slots() const {
     return true;
 }
 
-std::vector<uint64_t> Interpolation::affected() const {
-    const auto voxels = affected_voxels(diagram_->graph(), words_, version_, diagram_->words());
+// The rows that can have changed, and the seeds that can weigh in them; `old` with seeds by slot.
+RatioScope Interpolation::affected(const Rows &old) const {
+    const Graph &graph = diagram_->graph();
+    if (options_.method == LOCUS_METHOD_DISTANCE_RATIO) {
+        const auto changed = changed_voxels(graph, words_, version_, diagram_->words());
+        return ratio_scope(Field(graph, diagram_->words()), sources(), voxels_, changed, old);
+    }
+    const auto voxels = affected_voxels(graph, words_, version_, diagram_->words());
     std::vector<uint64_t> rows;
     for (uint64_t row = 0; row < voxels_.size(); ++row)
         if (voxels[voxels_[row]])
             rows.push_back(row);
-    return rows;
+    return {std::move(rows), {}};
 }
 
 std::vector<uint64_t> Interpolation::update() {
@@ -133,19 +145,22 @@ std::vector<uint64_t> Interpolation::update() {
     for (Share &share : old.shares)
         share.label = slot_of_id[ids_[share.label]];
 
-    if (options_.method != LOCUS_METHOD_DISTANCE_RATIO && same_slots()) {
-        std::vector<uint64_t> rows = affected();
-        adopt(rows.empty() ? std::move(old) : compute(rows, &old));
-        return rows;
+    if (!same_slots()) {
+        std::vector<uint64_t> all(voxels_.size());
+        std::iota(all.begin(), all.end(), 0);
+        compute_all();
+        return all;
     }
-    const Rows fresh = compute({}, nullptr);
-    std::vector<uint64_t> rows;
-    const bool comparable = same_slots();
-    for (uint64_t row = 0; row < voxels_.size(); ++row)
-        if (!comparable || !std::ranges::equal(fresh.row(row), old.row(row)))
-            rows.push_back(row);
-    adopt(fresh);
-    return rows;
+    RatioScope scope = affected(old);
+    if (scope.rows.empty()) {
+        adopt(std::move(old));
+        return {};
+    }
+    Rows fresh = compute(scope.seeds, scope.rows, &old);
+    if (options_.method == LOCUS_METHOD_DISTANCE_RATIO)
+        std::erase_if(scope.rows, [&](uint64_t row) { return std::ranges::equal(fresh.row(row), old.row(row)); });
+    adopt(std::move(fresh));
+    return std::move(scope.rows);
 }
 
 uint32_t Interpolation::position(uint32_t id) const {

@@ -3,6 +3,7 @@
 
 #include "core/progress.hpp"
 #include "graph/diagram.hpp"
+#include "graph/weights/ratio_scope.hpp"
 #include "graph/weights/rows.hpp"
 
 #include <locus/weights.h>
@@ -40,9 +41,10 @@ private:
     void take_options(const locus_weights_options &options);
     void check_diagram() const;
     void compute_all();
-    Rows compute(std::span<const uint64_t> rows, const Rows *base) const;
+    std::vector<Source> sources() const;
+    Rows compute(std::span<const Source> seeds, std::span<const uint64_t> rows, const Rows *base) const;
     bool same_slots() const;
-    std::vector<uint64_t> affected() const;
+    RatioScope affected(const Rows &old) const;
     void adopt(Rows rows);
     uint32_t position(uint32_t id) const;
 

@@ -19,15 +19,27 @@ struct Part {
     float weight;
 };
 
+// visit(row) for the rows to compute.
+template <typename Visit>
+void for_rows(const RatioJob &job, Visit &&visit) {
+    if (job.rows.empty())
+        for (uint64_t row = 0; row < job.voxels.size(); ++row)
+            visit(row);
+    for (const uint64_t row : job.rows)
+        visit(row);
+}
+
 // The voxels that rows are wanted for, numbered.
 class Wanted {
 public:
     static constexpr uint32_t none = UINT32_MAX;
 
-    Wanted(const Grid &grid, std::span<const uint64_t> voxels) : number_(grid.voxels(), none) {
-        for (const uint64_t voxel : voxels)
-            if (number_[voxel] == none)
-                number_[voxel] = count_++;
+    explicit Wanted(const RatioJob &job) : number_(job.field.grid().voxels(), none) {
+        for_rows(job, [&](uint64_t row) {
+            uint32_t &number = number_[job.voxels[row]];
+            if (number == none)
+                number = count_++;
+        });
     }
     uint32_t number(uint64_t voxel) const { return number_[voxel]; }
     uint32_t count() const { return count_; }
@@ -232,20 +244,20 @@ RowPile rows_of(const RatioJob &job, const Wanted &wanted, const std::vector<std
             sorted[next[part.voxel]++] = {part.label, part.weight};
     RowPile rows;
     std::vector<RawShare> row;
-    for (uint64_t i = 0; i < job.voxels.size(); ++i) {
+    for_rows(job, [&](uint64_t i) {
         const uint32_t number = wanted.number(job.voxels[i]);
         row.assign(sorted.begin() + static_cast<ptrdiff_t>(offset[number]),
                    sorted.begin() + static_cast<ptrdiff_t>(offset[number + 1]));
         finish_row(row, job.most, rows.shares);
         rows.close(i);
-    }
+    });
     return rows;
 }
 
 template <typename Word>
 RowPile run(const RatioJob &job, const std::vector<Cell> &cells, Progress &progress) {
     const std::vector<Source> seeds = by_place(job.field.grid(), job.seeds, cells);
-    const Wanted wanted(job.field.grid(), job.voxels);
+    const Wanted wanted(job);
     const size_t batches = (seeds.size() + batch_lanes - 1) / batch_lanes;
     Tasks tasks(batches, batches, progress);
     std::vector<std::vector<Part>> piles;

@@ -13,15 +13,16 @@ namespace locus::graph {
 
 struct RatioJob {
     const Field &field;
-    std::span<const Source> seeds; // where each label starts, labels unique
+    std::span<const Source> seeds; // where each label starts, labels unique; those that can weigh in the rows
     uint32_t most;                 // entries a row may keep; 0: all
     uint64_t bytes;                // most scratch memory of the searches
     uint32_t threads;
     Simd simd;
     std::span<const uint64_t> voxels; // one per row
+    std::span<const uint64_t> rows;   // the rows to compute; all where empty
 };
 
-// A pile with every row. Distances to borders are whole steps: halves are rounded down. Throws LOCUS_E_MEMORY where
+// A pile with the rows. Distances to borders are whole steps: halves are rounded down. Throws LOCUS_E_MEMORY where
 // `bytes` do not suffice for one thread, LOCUS_E_STOPPED.
 RowPile ratio_rows(const RatioJob &job, Progress &progress);
 

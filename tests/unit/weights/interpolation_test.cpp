@@ -1,5 +1,6 @@
 // The weights object: rows of boxes and lists, what is derived from them, and updates after edits.
 #include "fields.hpp"
+#include "graph/cuts.hpp"
 #include "graph/weights/interpolation.hpp"
 #include "naive.hpp"
 
@@ -184,6 +185,49 @@ TEST(Interpolation, UpdatesEqualFreshWeightsAndTouchFewRows) {
             }
         }
         EXPECT_TRUE(weights.update().empty());
+    }
+}
+
+// Boxes closed, softened and stiffened, a cut, seeds moved among many: fresh weights each time.
+TEST(Interpolation, DistanceRatiosFollowChangesAmongManySeeds) {
+    auto options = options_for(60, 26, 12);
+    options.material_min = 0.5, options.material_max = 50;
+    Model model(options, noise(60 * 26 * 12, 31, 0.02));
+    const Grid &grid = model.graph->grid();
+    std::mt19937 rng(32);
+    const auto anywhere = [&] {
+        uint64_t voxel = rng() % grid.voxels();
+        while (!model.graph->passable(voxel))
+            voxel = rng() % grid.voxels();
+        return voxel;
+    };
+    for (uint32_t id = 0; id < 150; ++id)
+        model.seed(id, anywhere());
+    model.solve();
+    for (const uint32_t most : {0u, 4u}) {
+        Interpolation weights(model.diagram, method(LOCUS_METHOD_DISTANCE_RATIO, most), grid.whole());
+        uint64_t touched = 0;
+        const float values[] = {std::numeric_limits<float>::quiet_NaN(), 40, 0.6f, 3};
+        for (uint32_t round = 0; round < 5; ++round) {
+            if (round == 2) {
+                cut_by_plane(*model.graph, {20.3, 0, 0}, {1, 0.2, 0}, {{14, 3, 2}, {14, 9, 8}});
+            } else if (round % 5 == 4) {
+                const auto [x, y, z] = grid.place(anywhere());
+                model.diagram->move_seed(static_cast<uint32_t>(rng() % 150), x, y, z);
+            } else {
+                model.graph->fill_box({{rng() % 57, rng() % 23, rng() % 9}, {3, 3, 3}}, values[round % 4]);
+                for (const Seed &seed : model.diagram->solved_seeds())
+                    if (!model.graph->passable(seed.voxel)) {
+                        const auto [x, y, z] = grid.place(anywhere());
+                        model.diagram->move_seed(seed.id, x, y, z);
+                    }
+            }
+            model.solve();
+            const std::vector<uint64_t> rows = weights.update();
+            touched += rows.size();
+            expect_same(weights, Interpolation(model.diagram, method(LOCUS_METHOD_DISTANCE_RATIO, most), grid.whole()));
+        }
+        EXPECT_LT(touched, 5 * grid.voxels() / 2);
     }
 }
 

@@ -21,7 +21,8 @@ Rows rows_of(const Solved &solved, uint32_t method, const std::vector<uint64_t> 
     Progress progress;
     const uint64_t bytes = uint64_t{1} << 30;
     if (method == LOCUS_METHOD_DISTANCE_RATIO) {
-        const RowPile pile = ratio_rows({solved.field(), solved.sources, 0, bytes, 2, simd_best(), voxels}, progress);
+        const RowPile pile =
+            ratio_rows({solved.field(), solved.sources, 0, bytes, 2, simd_best(), voxels, {}}, progress);
         return assemble(voxels.size(), {&pile, 1});
     }
     return assemble(voxels.size(),
