@@ -2,6 +2,7 @@
 #include "common/file_source.hpp"
 #include "common/generator.hpp"
 #include "common/progress.hpp"
+#include "stream/alerts.hpp"
 #include "stream/options.hpp"
 #include "stream/pictures.hpp"
 #include "stream/report.hpp"
@@ -129,7 +130,8 @@ int run(const Options &options) {
         source = std::make_unique<FileSource>(options.file.input, reader_options(options.file));
     }
     const auto horizon = static_cast<int64_t>(options.window_hours * hour);
-    Window window(horizon, options.layout);
+    Window window(horizon, options.layout, options.keep ? options.out : "");
+    const Watch watch(window);
     Pictures pictures(world, {options.out, options.zoom, options.zoom_km, horizon, events, options.pictures});
 
     std::string stopped; // why the stream ended early; what came before is shown all the same
@@ -153,15 +155,30 @@ int run(const Options &options) {
     print_summary(window, *source, options.batch, taken.count());
     if (options.newest > 0)
         print_newest(window, box_of(pictures.zoom()), options.newest);
+    const Position at = pictures.middle();
+    const std::string place = place_text(world, at);
+    if (options.best > 0 && window.stats().inserted > 0)
+        print_best(window, at, place, options.best);
     if (!events.empty())
-        print_events(events);
+        print_bursts(events, watch.found(), world);
+    else
+        print_alerts(watch.found(), world);
+    if (options.keep) {
+        try {
+            print_kept(window, at, place);
+            files.push_back(options.out + "/window.pmq  the window, saved");
+            files.push_back(options.out + "/older.db  what had left it, an SQLite database");
+        } catch (const std::exception &error) {
+            failed = error.what();
+        }
+    }
     print_files(files);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         throw std::runtime_error("cannot write the summary");
     if (!stopped.empty())
         std::fprintf(stderr, "stream: the stream stopped early: %s\n", stopped.c_str());
     if (!failed.empty())
-        std::fprintf(stderr, "stream: not all could be drawn: %s\n", failed.c_str());
+        std::fprintf(stderr, "stream: not all could be written: %s\n", failed.c_str());
     return stopped.empty() && failed.empty() ? 0 : 1;
 }
 

@@ -57,6 +57,12 @@ void add_results(CLI::App &app, Options &options) {
     app.add_option("--newest", options.newest, "Records of that map to print, the newest ones")
         ->check(CLI::Range(0, 1'000'000))
         ->group(group);
+    app.add_option("--best", options.best, "Records near its middle and young to print, the best ones")
+        ->check(CLI::Range(0, 1'000'000))
+        ->group(group);
+    app.add_flag("--keep", options.keep,
+                 "Keep what leaves the window in FOLDER/older.db; in the end save the window, load it again, ask both")
+        ->group(group);
     app.add_option("--frames", options.frames, "Frames of the animation; 0: none")
         ->check(CLI::Range(0, 10'000))
         ->group(group);

@@ -30,6 +30,8 @@ struct Options {
     std::string zoom = "auto";
     double zoom_km = 0; // 0: chosen
     size_t newest = 10;
+    size_t best = 5;
+    bool keep = false;
     size_t frames = 48;
     bool pictures = true;
     std::string out = "build/demo/stream";

@@ -136,6 +136,7 @@ void Pictures::choose_zoom(const Window &window) {
         }
     }
     zoom_ = view_of(centre);
+    middle_ = centre;
 }
 
 MapText Pictures::text_of(const Window &window, const std::string &what) const {

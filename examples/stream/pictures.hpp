@@ -32,7 +32,8 @@ public:
     // The last pictures. Call it once, at the end.
     void finish(const Window &window);
 
-    const View &zoom() const { return *zoom_; } // after finish()
+    const View &zoom() const { return *zoom_; } // after finish(),
+    Position middle() const { return middle_; } // and its middle
     const std::vector<std::string> &files() const { return files_; }
     const std::string &error() const { return error_; }
 
@@ -49,6 +50,7 @@ private:
     PictureSettings settings_;
     Animation animation_;
     std::optional<View> zoom_;
+    Position middle_;
     bool local_ = false; // the records lie close together: the world would show a dot
     std::optional<View> frame_view_;
     std::vector<std::string> files_;

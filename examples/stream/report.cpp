@@ -11,10 +11,14 @@
 #include <cstdio>
 #include <cstring>
 #include <sstream>
+#include <stdexcept>
 #include <sys/resource.h>
 
 namespace demo {
 namespace {
+
+constexpr double kept_radius = 30000; // metres
+constexpr double nearby_km = 30;
 
 std::string rate_text(double per_second) {
     char text[40];
@@ -79,6 +83,15 @@ std::string time_text(int64_t microseconds) {
     return text;
 }
 
+std::string place_text(const World &world, Position position) {
+    for (const Place &place : world.places)
+        if (distance_km(place.position, position) < nearby_km)
+            return place.name + ", " + place.country;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3f, %.3f", position.latitude, position.longitude);
+    return text;
+}
+
 void print_summary(const Window &window, const Source &source, size_t batch, double seconds) {
     const locus_pmq_stats stats = window.stats();
     const Latencies pause = window.latencies();
@@ -129,13 +142,54 @@ void print_newest(const Window &window, const locus_box &box, size_t count) {
                     static_cast<double>(post.longitude), printable(post.text).c_str());
 }
 
-void print_events(const std::vector<Event> &events) {
-    std::printf("\nPlanted bursts, which an alert should find:\n");
-    for (const Event &event : events)
-        std::printf("  %s  %3.0f min  %6.0f posts  %-10s  %s, %s\n", time_text(event.start).c_str(),
-                    static_cast<double>(event.duration) / 60e6, event.posts,
-                    std::string(event_kind_name(event.kind)).c_str(), event.place->name.c_str(),
-                    event.place->country.c_str());
+void print_best(const Window &window, Position at, const std::string &place, size_t count) {
+    locus_pmq_score score;
+    check(locus_pmq_score_init(&score, sizeof score));
+    score.latitude = at.latitude;
+    score.longitude = at.longitude;
+    std::vector<locus_text156> best(count);
+    std::vector<double> scores(count);
+    size_t found = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    check(locus_pmq_topk(window.store(), &score, nullptr, count, best.data(), scores.data(), &found));
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    std::printf("\nThe best around %s, near and young (found in %s):\n", place.c_str(),
+                duration_text(taken.count()).c_str());
+    if (found == 0)
+        std::printf("  none within %.0f km and the last %.0f hours\n", score.radius / 1000,
+                    static_cast<double>(score.period) / 3600e6);
+    for (size_t i = 0; i < found; ++i) {
+        const Position there{static_cast<double>(best[i].latitude), static_cast<double>(best[i].longitude)};
+        std::printf("  score %.3f  %5.1f km  %s  %s\n", scores[i], distance_km(at, there),
+                    time_text(best[i].time).c_str(), printable(best[i].text).c_str());
+    }
+}
+
+void print_kept(Window &window, Position at, const std::string &place) {
+    const uint64_t before = window.count_both(nullptr);
+    const Restart restart = window.restart();
+    const uint64_t after = window.count_both(nullptr);
+    if (after != before)
+        throw std::runtime_error("the restart: " + with_commas(before) + " records before, " + with_commas(after) +
+                                 " after");
+    const locus_cold_stats older = window.cold_stats();
+    std::printf("\nRestart    %s records (%s) saved in %s and loaded in %s; %s older ones in SQLite (%s)\n",
+                with_commas(restart.records).c_str(), bytes_text(restart.bytes).c_str(),
+                duration_text(restart.saving).c_str(), duration_text(restart.loading).c_str(),
+                with_commas(older.stored).c_str(), bytes_text(older.file_bytes).c_str());
+    locus_pmq_query query;
+    check(locus_pmq_query_init(&query, sizeof query));
+    query.region = LOCUS_REGION_CIRCLE;
+    query.circle = {at.latitude, at.longitude, kept_radius};
+    uint64_t live = 0;
+    check(locus_pmq_count(window.store(), &query, &live));
+    const auto begin = std::chrono::steady_clock::now();
+    const uint64_t both = window.count_both(&query);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    std::printf(
+        "Both tiers %s records within %.0f km around %s since the stream began, %s of them live (counted in %s)\n",
+        with_commas(both).c_str(), kept_radius / 1000, place.c_str(), with_commas(live).c_str(),
+        duration_text(taken.count()).c_str());
 }
 
 void write_events(const std::string &path, const std::vector<Event> &events) {

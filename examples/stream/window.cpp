@@ -1,8 +1,11 @@
-// Inserting and measuring.
+// Inserting, measuring, saving.
 #include "stream/window.hpp"
+
+#include <locus/storage.h>
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <numeric>
 #include <stdexcept>
 
@@ -13,21 +16,47 @@ void check(locus_status status) {
         throw std::runtime_error(locus_last_error());
 }
 
-Window::Window(int64_t horizon, StoreLayout layout) : horizon_(horizon), stream_clock_(horizon) {
-    locus_pmq_options options;
-    check(locus_pmq_options_init(&options, sizeof options));
-    options.record = LOCUS_RECORD_TEXT156;
+void check_cold(locus_status status) {
+    if (status != LOCUS_OK)
+        throw std::runtime_error(locus_cold_last_error());
+}
+
+Window::Window(int64_t horizon, StoreLayout layout, const std::string &folder)
+    : horizon_(horizon), folder_(folder), stream_clock_(horizon) {
+    check(locus_pmq_options_init(&options_, sizeof options_));
+    options_.record = LOCUS_RECORD_TEXT156;
     if (layout == StoreLayout::ring_leaves)
-        options.layout = LOCUS_LAYOUT_RING_LEAVES;
+        options_.layout = LOCUS_LAYOUT_RING_LEAVES;
     if (layout == StoreLayout::packed_array || layout == StoreLayout::packed_array_explicit)
-        options.layout = LOCUS_LAYOUT_PACKED_ARRAY;
+        options_.layout = LOCUS_LAYOUT_PACKED_ARRAY;
     if (layout == StoreLayout::packed_array_explicit)
-        options.index = LOCUS_INDEX_EXPLICIT;
-    options.future = LOCUS_FUTURE_CLAMP;
-    options.horizon = horizon;
+        options_.index = LOCUS_INDEX_EXPLICIT;
+    options_.future = LOCUS_FUTURE_CLAMP;
+    options_.horizon = horizon;
+    if (!folder_.empty()) {
+        std::filesystem::create_directories(folder_);
+        for (const char *name : {"older.db", "older.db-wal", "older.db-shm"})
+            std::filesystem::remove(path(name));
+    }
+    const locus_pmq_options options = with_tier();
     locus_pmq *store = nullptr;
     check(locus_pmq_create(&options, &store));
     store_.reset(store);
+}
+
+// Opens the tier where there is one.
+locus_pmq_options Window::with_tier() {
+    locus_pmq_options options = options_;
+    if (folder_.empty())
+        return options;
+    locus_cold_options tier;
+    check_cold(locus_cold_options_init(&tier, sizeof tier));
+    tier.record = options.record;
+    locus_cold *cold = nullptr;
+    check_cold(locus_cold_open(path("older.db").c_str(), &tier, &cold));
+    cold_.reset(cold);
+    check_cold(locus_cold_attach(cold, &options));
+    return options;
 }
 
 void Window::insert(const std::vector<locus_text156> &batch) {
@@ -42,7 +71,10 @@ void Window::insert(const std::vector<locus_text156> &batch) {
             ++late_;
     }
     const auto begin = std::chrono::steady_clock::now();
-    check(locus_pmq_insert(store_.get(), batch.data(), batch.size(), clock_));
+    const locus_status status = locus_pmq_insert(store_.get(), batch.data(), batch.size(), clock_);
+    if (status == LOCUS_E_STOPPED && cold_)
+        check_cold(locus_cold_flush(cold_.get())); // it tells why it takes no more
+    check(status);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     seconds_.push_back(taken.count());
     insert_seconds_ += taken.count();
@@ -58,6 +90,41 @@ locus_pmq_stats Window::stats() const {
     stats.struct_size = sizeof stats;
     check(locus_pmq_get_stats(store_.get(), &stats));
     return stats;
+}
+
+locus_cold_stats Window::cold_stats() const {
+    locus_cold_stats stats{};
+    stats.struct_size = sizeof stats;
+    check_cold(locus_cold_get_stats(cold_.get(), &stats));
+    return stats;
+}
+
+uint64_t Window::count_both(const locus_pmq_query *query) const {
+    uint64_t count = 0;
+    check_cold(locus_cold_count(cold_.get(), store_.get(), query, &count));
+    return count;
+}
+
+Restart Window::restart() {
+    using std::chrono::duration, std::chrono::steady_clock;
+    Restart result;
+    const auto begin = steady_clock::now();
+    check_cold(locus_cold_flush(cold_.get()));
+    check(locus_pmq_save(store_.get(), nullptr, path("window.pmq").c_str(), nullptr, nullptr));
+    result.saving = duration<double>(steady_clock::now() - begin).count();
+    store_.reset();
+    cold_.reset();
+
+    const auto again = steady_clock::now();
+    const locus_pmq_options options = with_tier();
+    locus_pmq *store = nullptr;
+    check(locus_pmq_load(path("window.pmq").c_str(), &options, nullptr, nullptr, &store));
+    store_.reset(store);
+    sweep();
+    result.loading = duration<double>(steady_clock::now() - again).count();
+    result.records = stats().records;
+    result.bytes = std::filesystem::file_size(path("window.pmq"));
+    return result;
 }
 
 Latencies Window::latencies() const {

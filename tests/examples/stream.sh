@@ -36,6 +36,7 @@ says one 'Insertion +[0-9].* records/s'
 says one 'Pauses +p50 .*longest'
 says one 'Memory +[0-9]'
 says one 'Planted bursts'
+says one 'The best around Paris, FR'
 is "$(wc -l <"$folder/one/events.csv")" = 13
 cmp "$folder/one/world.png" "$folder/two/world.png" || failed=1
 cmp "$folder/one/window.png" "$folder/two/window.png" || failed=1
@@ -44,6 +45,20 @@ for layout in ring array array-explicit; do
     expect 0 $layout "$stream" --posts 3000 --frames 0 --zoom paris --layout $layout --out "$folder/$layout"
     cmp "$folder/one/world.png" "$folder/$layout/world.png" || failed=1
 done
+
+# The bursts, and no others, are found; the window is saved and loaded, and asked together with what had left it.
+kept() { expect 0 "$1" "$stream" --posts 700000 --hours 6 --window 2 --events 3 --no-pictures --zoom paris --keep --out "$folder/kept"; }
+kept kept
+says kept 'Alerts +3 of 3 planted bursts found, 0 alerts beside them'
+says kept '^ +2026-03-21 .* alert after +[0-9]+ min '
+says kept 'score 0\.[0-9]+ +[0-9.]+ km  2026-03-21 0[0-9:]+  .'
+says kept '^Restart +[0-9,]+ records \(.*saved in .* and loaded in .*; [0-9,]+ older ones in SQLite'
+says kept '^Both tiers [0-9,]+ records within 30 km around Paris, FR'
+figure() { sed -nE "s/.*$1.*/\\1/p" "$folder/kept.out" | tr -d ,; }
+is "$(figure '^Window +([0-9,]+) records live')" = "$(figure '^Restart +([0-9,]+) records')"
+is "$(figure ' live, ([0-9,]+) evicted')" = "$(figure '; ([0-9,]+) older ones')"
+kept again # anew, in the same folder
+is "$(grep -c '^Both tiers' "$folder/again.out")" = 1
 
 # CSV with bad lines: counted and shown, or refused.
 {
@@ -100,6 +115,10 @@ is "$(cat "$folder/full.rc")" = 1
 grep -q 'cannot write .*frame-0001.png: File too large' "$folder/full2.txt" || { cat "$folder/full2.txt"; failed=1; }
 grep -q '^Insertion' "$folder/full.txt" || failed=1
 is -z "$(find "$folder/full" -type f)"
+
+full --posts 60000 --window 1 --no-pictures --keep --out "$folder/full"
+is "$(cat "$folder/full.rc")" = 1
+grep -Eq 'locus_cold_(open|flush).*(File too large|disk)' "$folder/full2.txt" || { cat "$folder/full2.txt"; failed=1; }
 
 "$stream" --posts 100 --no-pictures >/dev/full 2>"$folder/full3.txt" && { echo "FAIL: a full standard output"; failed=1; }
 grep -q 'cannot write the summary' "$folder/full3.txt" || failed=1

@@ -21,17 +21,18 @@ endef
 demo: ## build the example programs and run them: pictures and results under build/demo
 
 # The stream of posts.
-$(eval $(call example,stream))
+$(eval $(call example,stream,-llocus_cold))
+$(EXAMPLE_stream): $(SHARED_locus_cold)
 .PHONY: demo-stream test-stream memcheck-stream
 demo-stream: $(EXAMPLE_stream) ## a day of posts through a six-hour window of the PMQ store
-	@$(EXAMPLE_stream) --out $(DEMO_OUT)/stream $(STREAM_FLAGS)
+	@$(EXAMPLE_stream) --keep --out $(DEMO_OUT)/stream $(STREAM_FLAGS)
 demo: demo-stream
 
 test-stream: $(EXAMPLE_stream) | $(call needs,test)
 	$(STAGE) $(FLAVOUR)$@ tests/examples/stream.sh $<
 test: test-stream
 memcheck-stream: $(EXAMPLE_stream) | $(call needs,test)
-	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $< --posts 2000 --frames 1 --out $(OUT)/memcheck-stream
+	$(STAGE) $(FLAVOUR)$@ $(MEMCHECK) $< --posts 2000 --frames 1 --keep --out $(OUT)/memcheck-stream
 MEMCHECK_RUNS += memcheck-stream
 
 # The explorer: a server on the stream. Its page needs no building. Debian's cpp-httplib is compiled with these features.

@@ -1,8 +1,6 @@
 // The default alerts find the bursts that the demo's generator plants: those, and no others.
 #include "common/generator.hpp"
-#include "stream/window.hpp"
-
-#include <locus/alerts.h>
+#include "stream/alerts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,19 +20,8 @@ struct Stream {
     int64_t until; // of its day
 };
 
-int32_t keep(const locus_alert *alert, void *user) {
-    static_cast<std::vector<locus_alert> *>(user)->push_back(*alert);
-    return 0;
-}
-
 Position centre(const locus_alert &alert) {
     return {(alert.box.south + alert.box.north) / 2, (alert.box.west + alert.box.east) / 2};
-}
-
-// The alert tells of the burst: its region lies at the place, and it comes while the burst goes on.
-bool tells_of(const locus_alert &alert, const Event &event) {
-    return distance_km(centre(alert), event.place->position) < 15 && alert.time >= event.start &&
-           alert.time < event.start + event.duration;
 }
 
 void expect_the_planted(const Stream &stream) {
@@ -42,17 +29,12 @@ void expect_the_planted(const Stream &stream) {
     const World world = load_world("examples/data");
     Generator generator(world, {stream.seed, stream.posts, start, 24 * hour, stream.events});
     Window window(6 * hour);
-    std::vector<locus_alert> found;
-    locus_alerts_options options;
-    check(locus_alerts_options_init(&options, sizeof options));
-    options.alert = keep;
-    options.alert_user = &found;
-    locus_alerts *alerts = nullptr;
-    check(locus_alerts_create(const_cast<locus_pmq *>(window.store()), &options, &alerts));
+    const Watch watch(window);
     std::vector<locus_text156> batch;
     for (generator.next(batch, stream.batch); !batch.empty() && window.clock() < start + stream.until;
          generator.next(batch, stream.batch))
         window.insert(batch);
+    const std::vector<locus_alert> &found = watch.found();
     for (const Event &event : generator.events()) {
         if (event.start + event.duration > start + stream.until)
             continue;
@@ -69,7 +51,6 @@ void expect_the_planted(const Stream &stream) {
             << alert.records << " records, rate " << alert.rate << " instead of " << alert.expected;
         EXPECT_EQ(alert.kind, static_cast<uint32_t>(LOCUS_ALERT_JUMP));
     }
-    locus_alerts_destroy(alerts);
 }
 
 // The demo's stream, and of its day a quarter.
