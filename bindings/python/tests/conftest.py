@@ -3,9 +3,13 @@
 import heapq
 import itertools
 import math
+import signal
 
 import numpy as np
 import pytest
+
+# Tests that are started in the background inherit an interrupt that is ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 OFFSETS = [offset for offset in itertools.product((-1, 0, 1), repeat=3) if any(offset)]
 
