@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -48,7 +49,8 @@ struct graph_callbacks {
 
     static double on_weight(std::uint64_t u, std::uint64_t v, double length, void *user) noexcept {
         auto &kept = *static_cast<graph_callbacks *>(user);
-        return kept.thrown.guard(-1.0, [&] { return kept.weight(u, v, length); });
+        /* After an exception more than a word can hold: the call fails, and nothing is computed from it. */
+        return kept.thrown.guard(std::numeric_limits<double>::max(), [&] { return kept.weight(u, v, length); });
     }
     static void on_log(std::int32_t level, const char *text, void *user) noexcept {
         auto &kept = *static_cast<graph_callbacks *>(user);

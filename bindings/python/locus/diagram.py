@@ -58,14 +58,22 @@ class Diagram:
         Keep the active voxels per iteration for `trace`.
     max_distance : float
         Voxels farther than this stay unreached.
+    grain : tuple of int, optional
+        A grain's voxels (x, y, z), each 1 to 1024, for Engine.COMPACT of the CUDA backend.
+    stream : int, optional
+        The address of the ``cudaStream_t`` that the CUDA backend puts all work on, such as ``stream.ptr`` of a CuPy stream; it must
+        outlive the diagram. By default a stream of the diagram's own.
     """
 
     def __init__(
-        self, graph: Graph, *, engine: Engine | str = Engine.AUTO, record_trace: bool = False, max_distance: float = math.inf
-    ) -> None:
+        self, graph: Graph, *, engine: Engine | str = Engine.AUTO, record_trace: bool = False, max_distance: float = math.inf,
+        grain: tuple[int, int, int] | None = None, stream: int | None = None,
+    ) -> None:  # fmt: skip
+        if grain is not None and len(grain) != 3:
+            raise ValueError(f"grain must be three numbers (x, y, z), not {grain}")
         options = filled_options(
             "locus_diagram_options", lib.locus_diagram_options_init, engine=enum_value(Engine, engine), record_trace=record_trace,
-            max_distance=max_distance,
+            max_distance=max_distance, grain=grain, stream=None if stream is None else ffi.cast("void *", stream),
         )  # fmt: skip
         self._graph = graph
         self._guard = Guard("Diagram")

@@ -1,5 +1,6 @@
 """The voxel graph: a grid of voxels, each with a compliance or impassable."""
 
+import sys
 from collections.abc import Callable
 from typing import Any, NamedTuple, Union
 
@@ -33,10 +34,11 @@ class VoxelBox(NamedTuple):
 Box = Union[VoxelBox, tuple[slice, slice, slice], None]
 
 
-@callbacks.c_callback("double(uint64_t, uint64_t, double, void *)", error=-1.0)
+# What the library is told where the function raises is more than a word can hold: the call fails, and nothing is computed from it.
+@callbacks.c_callback("double(uint64_t, uint64_t, double, void *)", error=sys.float_info.max)
 def _on_weight(u: int, v: int, length: float, user: Any) -> float:
     kept = ffi.from_handle(user)
-    return -1.0 if kept.raised is not None else float(kept.functions["weight"](u, v, length))
+    return sys.float_info.max if kept.raised is not None else float(kept.functions["weight"](u, v, length))
 
 
 def box_of(box: Box, shape: tuple[int, int, int]) -> VoxelBox:
@@ -84,7 +86,8 @@ class Graph:
     stiffness_exponent : float
         p of WeightRule.MEAN_STIFFNESS.
     weight : callable, optional
-        ``weight(u, v, length) -> float`` for WeightRule.CALLER, u and v being voxel indices with u < v.
+        ``weight(u, v, length) -> float`` for WeightRule.CALLER, u and v being voxel indices with u < v. What it raises comes out of
+        the call that needed it, which then has no result.
     max_seeds : int, optional
         Seeds a diagram must be able to hold.
     scale, precision : float, optional

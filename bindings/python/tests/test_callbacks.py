@@ -117,6 +117,31 @@ def test_weight_functions(random):
         diagram.solve()
 
 
+@pytest.mark.parametrize("engine", ["heap", "bucket", "relax", "bricks"])
+def test_a_weight_function_that_raises_leaves_no_result(engine):
+    left = [40]
+
+    def weight(u, v, length):
+        left[0] -= 1
+        return raising() if left[0] < 0 else 2 * length
+
+    graph = locus.Graph(np.ones((4, 5, 6), np.float32), weight_rule="caller", weight=weight, material_range=(1, 4), threads=1)
+    diagram = locus.Diagram(graph, engine=engine)
+    diagram.add_seeds([(0, 0, 0)])
+    with pytest.raises(Mine):
+        diagram.solve()
+    with pytest.raises(locus.StateError):
+        diagram.labels()
+    left[0] = 10**6
+    assert diagram.solve().distances()[0, 0, 1] == 2
+    left[0] = 0
+    graph.set_box(locus.VoxelBox((3, 3, 3), (1, 1, 1)), 2)
+    with pytest.raises(Mine):
+        diagram.update()
+    with pytest.raises(locus.StateError):
+        diagram.labels()
+
+
 def test_logs():
     lines = []
     locus.Graph(np.ones(3), log=lambda level, text: lines.append((level, text)))

@@ -6,6 +6,7 @@ import locus
 import numpy as np
 import pytest
 from conftest import dijkstra
+from locus._ffi import ffi
 
 
 def random_material(random, shape=(5, 6, 7)):
@@ -205,3 +206,27 @@ def test_arrays_are_not_copied():
             diagram.distances(out=bad)
     weights = locus.Weights(diagram)
     assert np.shares_memory(weights.volume(values := weights.interpolate([2])), values)
+
+
+def test_options_of_the_cuda_backend(monkeypatch):
+    graph, seen = locus.Graph(np.ones(3)), []
+
+    class Watched:
+        def __getattr__(self, name):
+            return getattr(library, name)
+
+        def locus_diagram_create(self, graph, options, made):
+            seen.append((tuple(options.grain), int(ffi.cast("uintptr_t", options.stream)), options.engine))
+            return library.locus_diagram_create(graph, options, made)
+
+    library = locus.diagram.lib
+    monkeypatch.setattr(locus.diagram, "lib", Watched())
+    locus.Diagram(graph)
+    locus.Diagram(graph, grain=(16, 2, 1), stream=0x7F00)
+    assert seen == [((8, 4, 4), 0, locus.Engine.AUTO), ((16, 2, 1), 0x7F00, locus.Engine.AUTO)]
+    with pytest.raises(locus.UnsupportedError):
+        locus.Diagram(locus.Graph(np.ones(3), backend="cpu"), engine="compact", grain=(8, 4, 4))
+    with pytest.raises(ValueError, match="grain must be three numbers"):
+        locus.Diagram(graph, grain=(1, 2))
+    with pytest.raises(OverflowError):
+        locus.Diagram(graph, grain=(-1, 2, 3))

@@ -173,6 +173,8 @@ TEST(CppGraph, ExceptionsOfCallbacksComeThrough) {
     } catch (const Mine &mine) {
         EXPECT_EQ(mine.number, 77);
     }
+    // Nothing was computed without that weight.
+    EXPECT_THROW(diagram.labels(), locus::error);
     bad = false;
     EXPECT_THROW(diagram.solve([](double) -> bool { throw Mine{1}; }), Mine);
     locus::status status;

@@ -114,7 +114,8 @@ impl GraphOptions {
     }
 
     /// Weigh edges by a function of the voxels' indices u < v and the edge's length, always the same for the same pair;
-    /// negative, NaN or infinite: no such edge. Several threads may call it at once.
+    /// negative, NaN or infinite: no such edge. Several threads may call it at once. A panic in it goes on out of the call
+    /// that needed it, which has no result then: a diagram is unsolved.
     #[must_use]
     pub fn weight(mut self, weight: impl Fn(u64, u64, f64) -> f64 + Send + Sync + 'static) -> Self {
         self.plain.weight_rule = sys::LOCUS_WEIGHT_CALLER;
@@ -176,7 +177,8 @@ unsafe extern "C" fn weight_at(u: u64, v: u64, length: f64, user: *mut c_void) -
             if let Ok(mut kept) = shared.panic.lock() {
                 kept.get_or_insert(payload);
             }
-            f64::NAN
+            // More than a word can hold: the call fails, and nothing is computed from it.
+            f64::MAX
         }),
         None => f64::NAN,
     }

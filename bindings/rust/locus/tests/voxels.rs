@@ -1,7 +1,7 @@
 //! Graphs, diagrams and weights against brute force on small grids.
 use locus::*;
 use std::panic::{catch_unwind, AssertUnwindSafe};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI64, Ordering};
 use std::sync::Arc;
 
 const DIMS: [u64; 3] = [7, 6, 5];
@@ -166,6 +166,31 @@ fn refuses_what_does_not_fit() {
     let error = diagram.solve().unwrap_err();
     assert_eq!((error.name(), error.status()), ("LOCUS_E_STATE", sys::LOCUS_E_STATE));
     assert!(matches!(diagram.labels(outside), Err(Error::State(_) | Error::Argument(_))));
+}
+
+#[test]
+fn a_panicking_weight_function_leaves_no_result() {
+    for engine in [Engine::Heap, Engine::Bucket, Engine::Relax, Engine::Bricks] {
+        let left = Arc::new(AtomicI64::new(40));
+        let seen = left.clone();
+        let weight = move |_: u64, _: u64, length: f64| {
+            assert!(seen.fetch_sub(1, Ordering::Relaxed) > 0, "no further");
+            2.0 * length
+        };
+        let options = GraphOptions::new(DIMS).threads(2).material_min(2.0).material_max(2.0).weight(weight);
+        let mut graph = Graph::new(options, Some(&[1.0; VOXELS])).unwrap();
+        let mut diagram = Diagram::with(&graph, &DiagramOptions::default().engine(engine)).unwrap();
+        diagram.add_seeds(&[Seed::default()]).unwrap();
+        assert!(catch_unwind(AssertUnwindSafe(|| diagram.solve())).is_err());
+        assert!(matches!(diagram.labels(None), Err(Error::State(_))));
+        left.store(1_000_000, Ordering::Relaxed);
+        diagram.solve().unwrap();
+        assert!((diagram.distances(None).unwrap()[1] - 2.0).abs() < 0.1);
+        left.store(0, Ordering::Relaxed);
+        graph.fill_box(VoxelBox { origin: [3, 3, 3], extent: [1, 1, 1] }, 2.0).unwrap();
+        assert!(catch_unwind(AssertUnwindSafe(|| diagram.update())).is_err());
+        assert!(matches!(diagram.labels(None), Err(Error::State(_))));
+    }
 }
 
 #[test]
