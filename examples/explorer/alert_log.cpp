@@ -89,7 +89,7 @@ std::string AlertLog::text_of(const locus_pmq *store, const locus_alert &alert) 
     query.time_from = alert.time - word_age;
     query.time_to = alert.time;
     Words words;
-    for (const locus_text156 &record : newest_page(store, query, read_records, "").records)
+    for (const locus_text156 &record : newest_page(Tiers{store}, query, read_records, "").records)
         words.add({record.text, strnlen(record.text, sizeof record.text)});
     std::string text;
     for (const auto &[word, count] : words.most(told_words))

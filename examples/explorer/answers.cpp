@@ -63,17 +63,20 @@ Json Answers::head(uint64_t version) const {
 Reply Answers::count(const Request &request) {
     Arguments arguments(request);
     Json json = head(live_.version());
+    const Tiers tiers = tiers_of(arguments, live_);
     const Selection selection(arguments, live_.now(), true);
     arguments.done();
-    uint64_t count = 0;
-    check(locus_pmq_count(live_.store(), &selection.query(), &count));
-    json["count"] = count;
+    std::optional<Turns::Turn> turn;
+    if (tiers.older != nullptr)
+        turn.emplace(turns_);
+    json["count"] = count_records(tiers, selection.query());
     return json_reply(json);
 }
 
 Reply Answers::records(const Request &request) {
     Arguments arguments(request);
     Json json = head(live_.version());
+    const Tiers tiers = tiers_of(arguments, live_);
     const Selection selection(arguments, live_.now(), true);
     const auto limit = arguments.integer("limit", 1, static_cast<int64_t>(max_results_)).value_or(100);
     const bool by_place = arguments.word("order", {"newest", "place"}) == 1;
@@ -81,8 +84,7 @@ Reply Answers::records(const Request &request) {
     arguments.done();
     const Turns::Turn turn(turns_);
     const auto turned = by_place ? place_page : newest_page;
-    const Page page =
-        turned(live_.store(), selection.query(), std::min(static_cast<size_t>(limit), max_results_), after);
+    const Page page = turned(tiers, selection.query(), std::min(static_cast<size_t>(limit), max_results_), after);
     json["records"] = Json::array();
     for (const locus_text156 &record : page.records)
         json["records"].push_back(record_json(record));
@@ -147,18 +149,18 @@ Reply Answers::nearest(const Request &request) {
 
 namespace {
 
-Json by_time(const locus_pmq *store, const locus_pmq_query &query, double step) {
+Json by_time(const Tiers &tiers, const locus_pmq_query &query, double step) {
     uint64_t total = 0;
     Json groups = Json::array();
-    for (const auto &[begin, count] : count_by_time(store, query, static_cast<int64_t>(step * second), total))
+    for (const auto &[begin, count] : count_by_time(tiers, query, static_cast<int64_t>(step * second), total))
         groups.push_back({{"from", begin}, {"count", count}});
     return {{"by", "time"}, {"step", step}, {"total", total}, {"groups", std::move(groups)}};
 }
 
-Json by_cell(const locus_pmq *store, const locus_pmq_query &query, uint32_t zoom, size_t k) {
+Json by_cell(const Tiers &tiers, const locus_pmq_query &query, uint32_t zoom, size_t k) {
     uint64_t total = 0;
     Json groups = Json::array();
-    for (const CellCount &cell : count_by_cell(store, query, zoom, k, total)) {
+    for (const CellCount &cell : count_by_cell(tiers, query, zoom, k, total)) {
         const locus_box box = tile_box(zoom, cell.x, cell.y);
         groups.push_back({{"x", cell.x},
                           {"y", cell.y},
@@ -168,11 +170,10 @@ Json by_cell(const locus_pmq *store, const locus_pmq_query &query, uint32_t zoom
     return {{"by", "cell"}, {"z", zoom}, {"total", total}, {"groups", std::move(groups)}};
 }
 
-Json by_word(const locus_pmq *store, const locus_pmq_query &query, size_t k) {
-    uint64_t total = 0;
-    check(locus_pmq_count(store, &query, &total));
+Json by_word(const Tiers &tiers, const locus_pmq_query &query, size_t k) {
+    const uint64_t total = count_records(tiers, query);
     Words words;
-    for (const locus_text156 &record : newest_page(store, query, word_records, "").records)
+    for (const locus_text156 &record : newest_page(tiers, query, word_records, "").records)
         words.add(text_of(record));
     Json groups = Json::array();
     for (const auto &[word, count] : words.most(k))
@@ -193,6 +194,7 @@ std::string key_of(const Request &request) {
 Reply Answers::aggregate(const Request &request) {
     Arguments arguments(request);
     const uint64_t version = live_.version();
+    const Tiers tiers = tiers_of(arguments, live_);
     const Selection selection(arguments, live_.now(), true);
     const size_t by = arguments.word("by", {"time", "cell", "word"});
     if (!arguments.has("by"))
@@ -203,9 +205,9 @@ Reply Answers::aggregate(const Request &request) {
     arguments.done();
     const auto body = groups_.get(key_of(request), version, [&](const std::string *) {
         const Turns::Turn turn(turns_);
-        Json json = by == 0   ? by_time(live_.store(), selection.query(), step)
-                    : by == 1 ? by_cell(live_.store(), selection.query(), zoom, static_cast<size_t>(k))
-                              : by_word(live_.store(), selection.query(), static_cast<size_t>(k));
+        Json json = by == 0   ? by_time(tiers, selection.query(), step)
+                    : by == 1 ? by_cell(tiers, selection.query(), zoom, static_cast<size_t>(k))
+                              : by_word(tiers, selection.query(), static_cast<size_t>(k));
         json.update(head(version));
         return json_text(json);
     });

@@ -1,8 +1,6 @@
 // Counting by groups.
 #include "explorer/groups.hpp"
 
-#include "explorer/pages.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -51,13 +49,13 @@ private:
 
 } // namespace
 
-std::map<int64_t, uint64_t> count_by_time(const locus_pmq *store, const locus_pmq_query &query, int64_t step,
+std::map<int64_t, uint64_t> count_by_time(const Tiers &tiers, const locus_pmq_query &query, int64_t step,
                                           uint64_t &total) {
     std::map<int64_t, uint64_t> buckets;
     bool many = false;
     total = 0;
     auto last = buckets.end();
-    visit_records(store, query, [&](const locus_text156 &record) {
+    visit_records(tiers, query, [&](const locus_text156 &record) {
         const int64_t time = record.time;
         const int64_t begin = time - (time % step + step) % step;
         if (last == buckets.end() || last->first != begin)
@@ -77,7 +75,7 @@ std::map<int64_t, uint64_t> count_by_time(const locus_pmq *store, const locus_pm
 }
 
 // The store's order is that of the cells, so each cell's records come one after the other.
-std::vector<CellCount> count_by_cell(const locus_pmq *store, const locus_pmq_query &query, uint32_t zoom, size_t count,
+std::vector<CellCount> count_by_cell(const Tiers &tiers, const locus_pmq_query &query, uint32_t zoom, size_t count,
                                      uint64_t &total) {
     Fullest fullest(count);
     const uint32_t shift = 2 * (key_levels - zoom);
@@ -88,7 +86,7 @@ std::vector<CellCount> count_by_cell(const locus_pmq *store, const locus_pmq_que
         run = 0;
     };
     total = 0;
-    visit_records(store, query, [&](const locus_text156 &record) {
+    visit_records(tiers, query, [&](const locus_text156 &record) {
         uint64_t key = 0;
         check(locus_pmq_key(record.latitude, record.longitude, &key));
         if (key >> shift != code)

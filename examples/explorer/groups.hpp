@@ -2,7 +2,7 @@
 // groups as there are records: these need memory for what they answer alone.
 #pragma once
 
-#include "explorer/selection.hpp"
+#include "explorer/tiers.hpp"
 
 #include <cstdint>
 #include <map>
@@ -18,11 +18,11 @@ struct CellCount {
 };
 
 // Records per bucket of `step` microseconds, by the bucket's begin. Throws a Failure for more than 2,000 buckets.
-std::map<int64_t, uint64_t> count_by_time(const locus_pmq *store, const locus_pmq_query &query, int64_t step,
+std::map<int64_t, uint64_t> count_by_time(const Tiers &tiers, const locus_pmq_query &query, int64_t step,
                                           uint64_t &total);
 
 // The `count` fullest tiles of a zoom, fullest first.
-std::vector<CellCount> count_by_cell(const locus_pmq *store, const locus_pmq_query &query, uint32_t zoom, size_t count,
+std::vector<CellCount> count_by_cell(const Tiers &tiers, const locus_pmq_query &query, uint32_t zoom, size_t count,
                                      uint64_t &total);
 
 // The corners of a tile.

@@ -1,7 +1,7 @@
 // Keeps a store's folder small: saves the store anew from time to time, which lets go of its log, and at the end.
 #pragma once
 
-#include <locus/pmq.h>
+#include "explorer/older.hpp"
 
 #include <condition_variable>
 #include <mutex>
@@ -12,8 +12,9 @@ namespace explorer {
 
 class Keeper {
 public:
-    // Every `seconds`. `store` has a folder, and outlives the keeper.
-    Keeper(locus_pmq *store, double seconds);
+    // Every `seconds`. `store` has a folder, and outlives the keeper, as does `older` (null: there is none) with what
+    // has left it. Whoever changes the store holds `changing`: so does the keeper for the moment that is saved.
+    Keeper(locus_pmq *store, Older *older, std::mutex &changing, double seconds);
     ~Keeper() { stop(); }
     Keeper(const Keeper &) = delete;
     Keeper &operator=(const Keeper &) = delete;
@@ -24,8 +25,11 @@ public:
 private:
     void run(double seconds);
     void save();
+    std::string checkpoint();
 
     locus_pmq *store_;
+    Older *older_;
+    std::mutex &changing_;
     mutable std::mutex mutex_; // of what follows
     std::condition_variable end_;
     bool stopping_ = false;

@@ -39,7 +39,7 @@ Live::Live(const LiveSettings &settings) : settings_(settings), stream_clock_(se
     store_.reset(make(settings));
     settings_.watch(store_.get());
     if (!settings.folder.empty())
-        keeper_ = std::make_unique<Keeper>(store_.get(), settings.save_seconds);
+        keeper_ = std::make_unique<Keeper>(store_.get(), older_.get(), changing_, settings.save_seconds);
     writer_ = std::thread([this] { run(); });
 }
 
@@ -61,12 +61,19 @@ locus_pmq *Live::make(const LiveSettings &settings) {
     log.sync = LOCUS_SYNC_INTERVAL;
     locus_pmq_recovery recovery{};
     recovery.struct_size = sizeof recovery;
+    if (settings.older) {
+        older_ = std::make_unique<Older>(*settings.older);
+        older_->listen(options);
+    }
     check(locus_pmq_open(settings.folder.c_str(), &options, &log, nullptr, nullptr, &recovery, &store));
+    std::unique_ptr<locus_pmq, Destroy> opened(store);
+    if (older_)
+        older_->join(settings.folder, recovery, store);
     recovered_ = recovery.now;
     now_.store(recovery.now);
     if (recovery.records > 0)
         first_.store(INT64_MIN);
-    return store;
+    return opened.release();
 }
 
 Live::~Live() { stop(); }
@@ -161,12 +168,16 @@ std::string Live::insert(const Batch &batch) {
         return "";
     const auto begin = Clock::now();
     const uint64_t cpu = thread_cpu_ns();
-    const locus_status status = locus_pmq_insert(store_.get(), batch.data(), batch.size(), now);
+    const locus_status status = change(batch, now);
     // What the store did not take, as it is; the next batch is tried as usual.
     if (status == LOCUS_E_MEMORY || status == LOCUS_E_ARGUMENT || status == LOCUS_E_IO || status == LOCUS_E_STATE)
         return locus_last_error();
-    check(status);
+    // Stopped: the batch is stored, but what left the window waits, because the database cannot be written.
+    if (status != LOCUS_E_STOPPED || !older_)
+        check(status);
     now_.store(now, std::memory_order_release);
+    if (older_)
+        older_->advance(now);
     if (batch.empty())
         return "";
     cpu_.add(thread_cpu_ns() - cpu);
@@ -178,6 +189,11 @@ std::string Live::insert(const Batch &batch) {
     first_.store(first, std::memory_order_relaxed);
     changed_ = true;
     return "";
+}
+
+locus_status Live::change(const Batch &batch, int64_t now) {
+    const std::lock_guard lock(changing_);
+    return locus_pmq_insert(store_.get(), batch.data(), batch.size(), now);
 }
 
 void Live::count(size_t records) {

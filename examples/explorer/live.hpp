@@ -16,6 +16,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,10 +28,11 @@ using Batch = std::vector<locus_text156>;
 int64_t wall_clock(); // microseconds since the epoch
 
 struct LiveSettings {
-    int64_t horizon = 0;     // microseconds, or LOCUS_NO_HORIZON
-    uint64_t max_bytes = 0;  // or LOCUS_NO_LIMIT
-    std::string folder;      // the store is kept there, over restarts; empty: in memory alone
-    double save_seconds = 0; // how often it is saved anew
+    int64_t horizon = 0;                // microseconds, or LOCUS_NO_HORIZON
+    uint64_t max_bytes = 0;             // or LOCUS_NO_LIMIT
+    std::string folder;                 // the store is kept there, over restarts; empty: in memory alone
+    double save_seconds = 0;            // how often it is saved anew
+    std::optional<OlderSettings> older; // what has left the window is kept there, too
     // What time it is for the window; INT64_MIN: the latest time of the records. Called by the writer.
     std::function<int64_t()> clock;
     std::function<void(locus_pmq *)> watch; // called with the store before anything is inserted
@@ -50,6 +52,7 @@ public:
     void stop(); // stores what is queued, and saves; then the two above do nothing
 
     const locus_pmq *store() const { return store_.get(); }
+    const Older *older() const { return older_.get(); } // null: what leaves is let go
     uint64_t version() const { return version_.load(std::memory_order_acquire); }
     int64_t now() const { return now_.load(std::memory_order_acquire); }     // INT64_MIN before the first record
     int64_t first() const { return first_.load(std::memory_order_relaxed); } // earliest time inserted; INT64_MAX
@@ -77,11 +80,14 @@ private:
     void run();
     void store(Job &job);
     std::string insert(const Batch &batch);
+    locus_status change(const Batch &batch, int64_t now);
     void count(size_t records);
     void publish();
 
     LiveSettings settings_;
+    std::unique_ptr<Older> older_; // outlives the store
     std::unique_ptr<locus_pmq, Destroy> store_;
+    std::mutex changing_; // held while the store changes
     demo::StreamClock stream_clock_;
     Latency wall_, cpu_;
     std::atomic<uint64_t> version_{1};

@@ -95,8 +95,17 @@ private:
                 limited ? static_cast<uint64_t>(options_.memory * megabyte) : LOCUS_NO_LIMIT,
                 options_.data,
                 options_.save,
+                older_settings(),
                 [this] { return pace_.now(); },
                 [this](locus_pmq *store) { alerts_.watch(store); }};
+    }
+
+    std::optional<OlderSettings> older_settings() const {
+        if (options_.keep <= 0)
+            return std::nullopt;
+        return OlderSettings{static_cast<int64_t>((options_.horizon + options_.keep) * second),
+                             options_.keep_mb > 0 ? static_cast<uint64_t>(options_.keep_mb * megabyte)
+                                                  : LOCUS_NO_LIMIT};
     }
 
     std::string source_name() const {
@@ -124,8 +133,8 @@ private:
     }
 
     StatisticsSettings statistics_settings() const {
-        return {options_.horizon, static_cast<uint64_t>(options_.memory * megabyte), options_.max_results,
-                "places: GeoNames, CC BY 4.0"};
+        return {options_.horizon, options_.keep, static_cast<uint64_t>(options_.memory * megabyte),
+                options_.max_results, "places: GeoNames, CC BY 4.0"};
     }
 
     ServerSettings server_settings() const {

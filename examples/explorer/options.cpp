@@ -52,10 +52,23 @@ void add_window(CLI::App &app, Options &options) {
                    "Most memory of the store, MB; beyond, the oldest records go; 0: no limit")
         ->check(CLI::Range(0.0, 1e7))
         ->group(group);
-    app.add_option("--data", options.data, "Folder that keeps the window over restarts: saved file and log of batches")
-        ->group(group);
+    CLI::Option *data = app.add_option("--data", options.data,
+                                       "Folder that keeps the window over restarts: saved file and log of batches")
+                            ->group(group);
     app.add_option("--save", options.save, "Seconds after which it is saved anew, and the log begun afresh")
         ->check(CLI::Range(1.0, 1e9))
+        ->group(group);
+    CLI::Option *keep =
+        app.add_option("--keep", options.keep,
+                       "Seconds that a record stays in the folder's database, older.db, after it has left the window; "
+                       "0: it does not")
+            ->check(CLI::Range(0.0, 1e11))
+            ->needs(data)
+            ->group(group);
+    app.add_option("--keep-mb", options.keep_mb,
+                   "Largest size of the database, MB, 10 or more; beyond, what came first goes; 0: no limit")
+        ->check(CLI::IsMember({0.0}) | CLI::Range(10.0, 1e9))
+        ->needs(keep)
         ->group(group);
 }
 

@@ -24,6 +24,8 @@ struct Options {
     double memory = 0;      // MB; 0: no limit
     std::string data;       // folder; empty: in memory alone
     double save = 600;      // seconds
+    double keep = 0;        // seconds behind the horizon; 0: what leaves is let go
+    double keep_mb = 0;     // MB; 0: no limit
 
     // The server.
     std::string bind = "127.0.0.1";

@@ -1,7 +1,7 @@
 // Records of a selection, page by page.
 #pragma once
 
-#include "explorer/selection.hpp"
+#include "explorer/tiers.hpp"
 
 #include <string>
 #include <vector>
@@ -14,20 +14,9 @@ struct Page {
 };
 
 // The newest first, of one time in the store's order. `after` is the `next` of the page before, or empty.
-Page newest_page(const locus_pmq *store, const locus_pmq_query &query, size_t limit, const std::string &after);
+Page newest_page(const Tiers &tiers, const locus_pmq_query &query, size_t limit, const std::string &after);
 
-// Along the Z-curve.
-Page place_page(const locus_pmq *store, const locus_pmq_query &query, size_t limit, const std::string &after);
-
-// Calls visit(record) for the records of the query in the store's order until it returns false.
-template <typename Visit>
-void visit_records(const locus_pmq *store, const locus_pmq_query &query, Visit visit) {
-    const auto call = [](const void *record, void *user) {
-        return (*static_cast<Visit *>(user))(*static_cast<const locus_text156 *>(record)) ? 0 : 1;
-    };
-    const locus_status status = locus_pmq_visit(store, &query, call, &visit);
-    if (status != LOCUS_E_STOPPED)
-        check(status);
-}
+// Along the Z-curve. Over both tiers a page is looked for from the beginning of the curve on.
+Page place_page(const Tiers &tiers, const locus_pmq_query &query, size_t limit, const std::string &after);
 
 } // namespace explorer

@@ -1,6 +1,8 @@
 // Regions and time windows out of parameters.
 #include "explorer/selection.hpp"
 
+#include <locus/cold.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,15 +19,20 @@ void inside(const std::string &name, double value, double bound) {
                                ".." + std::to_string(std::lround(bound)));
 }
 
-} // namespace
-
-void check(locus_status status) {
+void check(locus_status status, const char *(*reason)()) {
     if (status == LOCUS_OK)
         return;
     const bool theirs = status == LOCUS_E_ARGUMENT || status == LOCUS_E_RANGE;
     const bool busy = status == LOCUS_E_MEMORY || status == LOCUS_E_BUSY || status == LOCUS_E_STALE;
-    throw Failure(theirs ? 400 : busy ? 503 : 500, locus_last_error());
+    throw Failure(theirs ? 400 : busy ? 503 : 500, reason());
 }
+
+} // namespace
+
+void check(locus_status status) { check(status, locus_last_error); }
+
+// LOCUS_E_STATE: the database takes no more for now, and what it is to take waits.
+void check_cold(locus_status status) { check(status == LOCUS_E_STATE ? LOCUS_E_BUSY : status, locus_cold_last_error); }
 
 Selection::Selection(Arguments &arguments, int64_t now, bool regions) {
     check(locus_pmq_query_init(&query_, sizeof query_));

@@ -30,7 +30,8 @@ private:
     std::vector<uint64_t> ring_sizes_;
 };
 
-// A status of liblocus as an exception: a wrong argument is the client's, anything else ours.
+// A status of liblocus, or of liblocus_cold, as an exception: a wrong argument is the client's, anything else ours.
 void check(locus_status status);
+void check_cold(locus_status status);
 
 } // namespace explorer

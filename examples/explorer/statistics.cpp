@@ -36,6 +36,20 @@ Json latency_json(const Histogram &histogram) {
             {"batches", histogram.count()}};
 }
 
+// What has left the window; null where it is not kept.
+Json older_json(const Older *older) {
+    if (older == nullptr)
+        return {};
+    const locus_cold_stats stats = older->stats();
+    return {{"records", stats.stored},
+            {"bytes", stats.file_bytes},
+            {"queued", stats.received - stats.written},
+            {"taken", stats.received},
+            {"removed", stats.removed},
+            {"waits", stats.waits},
+            {"error", stats.failure == LOCUS_OK ? Json() : Json(locus_status_name(stats.failure))}};
+}
+
 Json time_json(int64_t time) { return time == INT64_MIN || time == INT64_MAX ? Json() : Json(time); }
 
 // Prometheus' text, version 0.0.4.
@@ -105,7 +119,7 @@ Json Statistics::stats() const {
             {"listeners", counters_.listeners.load()},
             {"requests", counters_.requests.load()},
             {"alerts", alerts_.last()},
-            {"cold", nullptr},
+            {"cold", older_json(live_.older())},
             {"save_error", live_.keeping().empty() ? Json() : Json(live_.keeping())},
             {"source",
              {{"name", feed.name},
@@ -123,7 +137,8 @@ Json Statistics::info() const {
             {"scales", scale_names},
             {"max_zoom", 25},
             {"alerts", true},
-            {"cold", false},
+            {"cold", live_.older() != nullptr},
+            {"keep", settings_.keep > 0 ? Json(settings_.keep) : Json()},
             {"source", feed_.state().name},
             {"attribution", settings_.attribution}};
 }
@@ -140,6 +155,16 @@ Reply Statistics::metrics() const {
     out.value("locus_batches_total", "counter", "Batches inserted.", number(store.batches));
     out.value("locus_refused_total", "counter", "Batches the store did not take.", number(live_.refused()));
     out.value("locus_queued_batches", "gauge", "Batches that wait for the writer.", number(live_.queued()));
+    if (const Older *older = live_.older()) {
+        const locus_cold_stats cold = older->stats();
+        out.value("locus_cold_records", "gauge", "Records in the database.", number(cold.stored));
+        out.value("locus_cold_bytes", "gauge", "Size of the database.", number(cold.file_bytes));
+        out.value("locus_cold_queued", "gauge", "Records that wait for it.", number(cold.received - cold.written));
+        out.value("locus_cold_taken_total", "counter", "Records it has taken over.", number(cold.received));
+        out.value("locus_cold_removed_total", "counter", "Records it has let go.", number(cold.removed));
+        out.value("locus_cold_waits_total", "counter", "Times the writer waited for it.", number(cold.waits));
+        out.value("locus_cold_failing", "gauge", "1: it cannot be written.", cold.failure == LOCUS_OK ? 0 : 1);
+    }
     out.value("locus_version", "counter", "Version of the store.", number(live_.version()));
     out.value("locus_listeners", "gauge", "Event listeners.", number(counters_.listeners.load()));
     out.value("locus_requests_total", "counter", "Requests answered.", number(counters_.requests.load()));
@@ -155,6 +180,10 @@ Reply Statistics::health() const {
     Json json{{"status", failure.empty() ? "ok" : "failed"}};
     if (!failure.empty())
         json["error"] = failure;
+    if (const Older *older = live_.older()) {
+        const int32_t reason = older->stats().failure;
+        json["cold"] = reason == LOCUS_OK ? "ok" : locus_status_name(reason);
+    }
     Reply reply = json_reply(json);
     reply.status = failure.empty() ? 200 : 503;
     return reply;

@@ -19,6 +19,7 @@ struct Counters {
 
 struct StatisticsSettings {
     double horizon = 0;        // seconds; 0: none
+    double keep = 0;           // seconds behind it; 0: nothing
     uint64_t memory_limit = 0; // bytes; 0: none
     size_t max_results = 0;
     std::string attribution;

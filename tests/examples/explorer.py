@@ -61,6 +61,16 @@ class Server:
         body = "".join((r if isinstance(r, str) else json.dumps(r)) + "\n" for r in records).encode()
         return self.json("/ingest" + query, status, method="POST", body=body, **headers)
 
+    def pages(self, query):
+        found, after = [], None
+        for _ in range(100):
+            page = self.json("/records?" + query + (f"&after={after}" if after else ""))
+            found += page["records"]
+            after = page["next"]
+            if not after:
+                return found
+        raise AssertionError("no end of pages")
+
     def wait(self, good, what):
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
@@ -170,24 +180,14 @@ class Answers(unittest.TestCase):
                          len(self.inside(lambda r: r["time"] <= middle and 47 <= r["lat"] <= 50 and 1 <= r["lon"] <= 4)))
         self.assertEqual(ask(f"to={middle}&last=600"), len(self.inside(lambda r: middle - 600 * 1000000 <= r["time"] <= middle)))
 
-    def pages(self, query, server=None):
-        found, after = [], None
-        for _ in range(100):
-            page = (server or self.server).json("/records?" + query + (f"&after={after}" if after else ""))
-            found += page["records"]
-            after = page["next"]
-            if not after:
-                return found
-        raise AssertionError("no end of pages")
-
     def test_records(self):
         key = lambda r: (r["time"], r["lat"], r["lon"], r["text"])
         wanted = sorted((r["time"], r["lat"], r["lon"]) for r in self.records)
         for order in ("newest", "place"):
             for limit in (1000, 170):
-                found = self.pages(f"order={order}&limit={limit}")
+                found = self.server.pages(f"order={order}&limit={limit}")
                 self.assertEqual(sorted((r["time"], r["lat"], r["lon"]) for r in found), wanted)
-        newest = self.pages("box=47,1,50,4&limit=7")
+        newest = self.server.pages("box=47,1,50,4&limit=7")
         self.assertEqual([r["time"] for r in newest], sorted((r["time"] for r in newest), reverse=True))
         self.assertEqual(len(set(map(key, newest))), len(newest))
 
@@ -197,7 +197,7 @@ class Answers(unittest.TestCase):
         moment = self.now / 1e6
         server.ingest([{"time": moment, "lat": 1, "lon": 2, "text": str(i)} for i in range(230)])
         for order in ("newest", "place"):
-            found = self.pages(f"order={order}&limit=50", server)
+            found = server.pages(f"order={order}&limit=50")
             self.assertEqual(sorted(int(r["text"]) for r in found), list(range(230)))
         server.stop()
 
@@ -305,7 +305,9 @@ class Answers(unittest.TestCase):
         stats = self.server.json("/stats")
         self.assertEqual((stats["records"], stats["source"]["state"]), (1500, "live"))
         self.assertGreater(stats["insert"]["batches"], 0)
-        self.assertIsNone(self.server.json("/info")["horizon"])
+        self.assertIsNone(stats["cold"])
+        info = self.server.json("/info")
+        self.assertEqual((info["horizon"], info["cold"], info["keep"]), (None, False, None))
         self.assertEqual(self.server.json("/healthz"), {"status": "ok"})
         _, headers, body = self.server.ask("/metrics")
         self.assertTrue(headers["Content-Type"].startswith("text/plain"))
@@ -316,7 +318,8 @@ class Answers(unittest.TestCase):
         self.assertTrue(all(l.startswith("#") or re.fullmatch(r'[a-z_]+(\{le="[^"]+"\})? \S+', l) for l in lines))
 
     def test_wrong(self):
-        wrong = {"/count?lat=1": "lat: no such parameter", "/count?box=1,2,3": "box: 3 numbers", "/count?box=1,2,3,x": "box: x is not a number",
+        wrong = {"/count?tiers=both": "tiers: both, but nothing is kept", "/count?tiers=all": "tiers: all", "/topk?lat=1&lon=1&tiers=both": "tiers: no such",
+                 "/count?lat=1": "lat: no such parameter", "/count?box=1,2,3": "box: 3 numbers", "/count?box=1,2,3,x": "box: x is not a number",
                  "/count?box=91,0,92,1": "outside -90..90", "/count?box=5,0,4,1": "south is greater", "/count?box=1,2,3,nan": "nan is not",
                  "/count?circle=1,2,-1": "radius", "/count?circle=1,2,1e9": "radius", "/count?polygon=1,2,3,4": "ring of 4",
                  "/count?polygon=0,0,1,1,0,1,1,0": "polygon", "/count?box=1,2,3,4&circle=1,2,3": "one of them", "/count?from=x": "from: x",
@@ -517,6 +520,79 @@ class Sources(unittest.TestCase):
             self.assertIn(folder, again.stderr)
             server.stop()
 
+    def test_older(self):
+        """Window and database have every record once together, also after an end of any kind and while they move."""
+        with tempfile.TemporaryDirectory() as folder:
+            options = ("--empty", "--data", folder, "--horizon", "2", "--keep", "3600", "--save", "1")
+            choice, sent = random.Random(11), []
+            for end in (signal.SIGKILL, signal.SIGTERM, signal.SIGKILL, signal.SIGKILL):
+                server = Server(*options)
+                self.assertEqual(server.json("/count?tiers=both")["count"], len(sent))
+                for _ in range(6):
+                    now = int(time.time() * 1000) * 1000
+                    batch = [{"time": now - choice.randrange(2500) * 1000, "lat": as_float32(choice.uniform(40, 60)),
+                              "lon": as_float32(choice.uniform(-10, 10)), "text": f"record {len(sent) + i}"} for i in range(200)]
+                    server.ingest([dict(r, time=r["time"] / 1e6) for r in batch])
+                    sent += batch
+                    self.assertEqual(server.json("/count?tiers=both")["count"], len(sent))
+                    time.sleep(0.3)
+                server.stop(end)
+            server = Server(*options)
+            server.wait(lambda: server.json("/count")["count"] == 0, "the end of the window")
+            server.wait(lambda: server.json("/stats")["cold"]["records"] == len(sent), "all records in the database")
+            self.check_older(server, sent)
+            server.stop()
+            self.check_older_ends(folder)
+
+    def check_older(self, server, sent):
+        count = lambda query: server.json("/count?tiers=both&" + query)["count"]
+        inside = lambda good: sum(1 for r in sent if good(r))
+        middle = sorted(r["time"] for r in sent)[len(sent) // 2]
+        self.assertEqual(count(f"to={middle}"), inside(lambda r: r["time"] <= middle))
+        self.assertEqual(count(f"from={middle}&box=45,-5,55,5"),
+                         inside(lambda r: r["time"] >= middle and 45 <= r["lat"] <= 55 and -5 <= r["lon"] <= 5))
+        self.assertEqual(count("circle=50,0,300000"), inside(lambda r: metres((50, 0), (r["lat"], r["lon"])) <= 3e5))
+        self.assertEqual(count("polygon=45,-5,45,5,55,5,55,-5;48,-1,48,1,52,1,52,-1"),
+                         inside(lambda r: 45 <= r["lat"] <= 55 and -5 <= r["lon"] <= 5 and not (48 < r["lat"] < 52 and -1 < r["lon"] < 1)))
+        key = lambda r: (r["time"], r["lat"], r["lon"], r["text"])
+        for order in ("newest", "place"):
+            found = server.pages(f"tiers=both&order={order}&limit=170")
+            self.assertEqual(sorted(map(key, found)), sorted(map(key, sent)))
+            if order == "newest":
+                self.assertEqual([r["time"] for r in found], sorted((r["time"] for r in sent), reverse=True))
+        self.assertEqual(server.json("/records")["records"], [])
+        self.assertEqual(server.json("/aggregate?by=cell&z=0&tiers=both")["total"], len(sent))
+        stats = server.json("/stats")["cold"]
+        self.assertEqual((stats["queued"], stats["removed"], stats["error"]), (0, 0, None))
+        self.assertIn(f"locus_cold_records {len(sent)}", server.ask("/metrics")[2].decode().splitlines())
+        self.assertEqual(server.json("/healthz"), {"status": "ok", "cold": "ok"})
+        info = server.json("/info")
+        self.assertEqual((info["cold"], info["keep"]), (True, 3600))
+        self.assertIn("circle", server.json("/count?tiers=both&circle=1,2,-1", 400)["error"])
+
+    def check_older_ends(self, folder):
+        """Records become too old; a database that is another one, or none, is told at the start."""
+        server = Server("--empty", "--data", folder, "--horizon", "1", "--keep", "1")
+        server.wait(lambda: server.json("/count?tiers=both")["count"] == 0, "what is too old")
+        server.stop()
+        start = lambda: subprocess.run([PROGRAM, "--empty", "--port", "0", "--data", folder, "--keep", "1"], capture_output=True, text=True,
+                                       timeout=PATIENCE)
+        path = os.path.join(folder, "older.db")
+        os.remove(path)
+        gone = start()
+        self.assertEqual(gone.returncode, 1)
+        self.assertIn("another file", gone.stderr)
+        with open(path, "w") as file:
+            file.write("no database" * 100)
+        wrong = start()
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn(path, wrong.stderr)
+        with open(os.path.join(folder, "older.marks"), "w") as file:
+            file.write("1 2\n3\n")
+        wrong = start()
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("older.marks: line 2", wrong.stderr)
+
     def test_token(self):
         good = [{"time": time.time(), "lat": 1, "lon": 2}]
         server = Server("--empty", "--bind", "0.0.0.0")
@@ -547,6 +623,10 @@ class Sources(unittest.TestCase):
         self.assertEqual(run("--no-such").returncode, 2)
         self.assertEqual(run("--port", "70000").returncode, 2)
         self.assertEqual(run("--empty", "--csv", "x").returncode, 2)
+        for wrong, told in ((("--keep", "60"), "--data"), (("--data", "x", "--keep", "-1"), "--keep"), (("--data", "x", "--keep-mb", "20"), "--keep"),
+                            (("--data", "x", "--keep", "60", "--keep-mb", "3"), "--keep-mb")):
+            self.assertEqual(run(*wrong).returncode, 2)
+            self.assertIn(told, run(*wrong).stderr)
         wrong = run("--static", "/nowhere", "--port", "0")
         self.assertEqual(wrong.returncode, 1)
         self.assertIn("/nowhere", wrong.stderr)

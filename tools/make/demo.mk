@@ -36,7 +36,8 @@ memcheck-stream: $(EXAMPLE_stream) | $(call needs,test)
 MEMCHECK_RUNS += memcheck-stream
 
 # The explorer: a server on the stream. Its page needs no building. Debian's cpp-httplib is compiled with these features.
-$(eval $(call example,explorer,-lcpp-httplib))
+$(eval $(call example,explorer,-llocus_cold -lcpp-httplib))
+$(EXAMPLE_explorer): $(SHARED_locus_cold)
 $(OBJECTS_example_explorer): | $(call needs,explorer)
 HTTPLIB_OBJECTS := $(patsubst %,$(OUT)/examples/explorer/%.cpp.o,server connection)
 $(HTTPLIB_OBJECTS): private CPPFLAGS_ALL += $(addprefix -DCPPHTTPLIB_,$(addsuffix _SUPPORT,OPENSSL ZLIB BROTLI))
