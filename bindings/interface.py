@@ -151,6 +151,23 @@ def interface_of(folder: str) -> dict[str, Any]:
     }
 
 
+def keep(folder: str, files: dict[str, str]) -> int:
+    """Write generated files, names to texts, below a binding's folder; with --check compare them: 1 where one is stale. Its generate.py ends with it."""
+    stale = 0
+    binding = os.path.basename(folder)
+    for name, text in files.items():
+        path = os.path.join(folder, name)
+        if "--check" not in sys.argv:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            continue
+        with open(path, encoding="utf-8") as file:
+            if file.read() != text:
+                print(f"bindings/{binding}/{name} is not what the headers say: run bindings/{binding}/generate.py")
+                stale = 1
+    return stale
+
+
 def main() -> None:
     arguments = sys.argv[1:]
     layout = "--layout" in arguments

@@ -12,7 +12,7 @@ from typing import Any
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.dirname(HERE))
-from interface import interface_of  # noqa: E402
+from interface import interface_of, keep  # noqa: E402
 
 HEADER = "// Made from the public headers by bindings/node/generate.py: run that, do not edit.\n"
 SIZES = {"char": 1, "uint16_t": 2, "int32_t": 4, "uint32_t": 4, "float": 4, "uint64_t": 8, "int64_t": 8, "double": 8}
@@ -81,17 +81,7 @@ def interface_module(interface: dict[str, Any]) -> str:
 
 
 def main() -> int:
-    text = interface_module(interface_of(os.path.join(ROOT, "include")))
-    path = os.path.join(HERE, "lib", "interface.js")
-    if "--check" in sys.argv:
-        with open(path, encoding="utf-8") as file:
-            if file.read() != text:
-                print("bindings/node/lib/interface.js is not what the headers say: run bindings/node/generate.py")
-                return 1
-        return 0
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    return 0
+    return keep(HERE, {"lib/interface.js": interface_module(interface_of(os.path.join(ROOT, "include")))})
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import cffi
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.dirname(HERE))
-from interface import interface_of  # noqa: E402
+from interface import interface_of, keep  # noqa: E402
 
 # Prefixes of constants that become an IntEnum; a constant with another prefix is a plain number.
 ENUMS = {
@@ -93,23 +93,11 @@ def structs_module(interface: dict) -> str:  # type: ignore[type-arg]
 
 def main() -> int:
     interface = interface_of(os.path.join(ROOT, "include"))
-    made = {
-        "_ffi.py": ffi_module(interface),
-        "constants.py": constants_module(interface),
-        "_structs.py": structs_module(interface),
-    }
-    stale = 0
-    for name, text in made.items():
-        path = os.path.join(HERE, "locus", name)
-        if "--check" in sys.argv:
-            with open(path, encoding="utf-8") as file:
-                if file.read() != text:
-                    print(f"bindings/python/locus/{name} is not what the headers say: run bindings/python/generate.py")
-                    stale = 1
-        else:
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
-    return stale
+    return keep(HERE, {
+        "locus/_ffi.py": ffi_module(interface),
+        "locus/constants.py": constants_module(interface),
+        "locus/_structs.py": structs_module(interface),
+    })
 
 
 if __name__ == "__main__":

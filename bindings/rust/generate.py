@@ -12,7 +12,7 @@ from typing import Any
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.dirname(HERE))
-from interface import interface_of  # noqa: E402
+from interface import interface_of, keep  # noqa: E402
 
 HEADER = "// Made from the public headers by bindings/rust/generate.py: run that, do not edit.\n"
 TYPES = {
@@ -113,20 +113,11 @@ def layout(interface: dict[str, Any]) -> str:
 
 def main() -> int:
     interface = interface_of(os.path.join(ROOT, "include"))
-    stale = 0
-    made = {"src/lib.rs": library(interface), "src/constants.rs": constants(interface), "examples/layout.rs": layout(interface)}
-    for name, text in made.items():
-        path = os.path.join(HERE, "locus-sys", name)
-        if "--check" in sys.argv:
-            with open(path, encoding="utf-8") as file:
-                same = file.read() == text
-            if not same:
-                print(f"bindings/rust/locus-sys/{name} is not what the headers say: run bindings/rust/generate.py")
-                stale = 1
-        else:
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
-    return stale
+    return keep(HERE, {
+        "locus-sys/src/lib.rs": library(interface),
+        "locus-sys/src/constants.rs": constants(interface),
+        "locus-sys/examples/layout.rs": layout(interface),
+    })
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ void check(locus_status status, const char *(*reason)()) {
 
 void check(locus_status status) { check(status, locus_last_error); }
 
-// LOCUS_E_STATE: the database takes no more for now, and what it is to take waits.
+// LOCUS_E_STATE: the database is full of work, and what it is to take waits.
 void check_cold(locus_status status) { check(status == LOCUS_E_STATE ? LOCUS_E_BUSY : status, locus_cold_last_error); }
 
 Selection::Selection(Arguments &arguments, int64_t now, bool regions) {

@@ -1,5 +1,6 @@
 /* locus/alerts.h: a walk through the calls, and every bad argument. */
 #include "check.h"
+#include "point.h"
 
 #include <locus/alerts.h>
 
@@ -18,16 +19,6 @@ static int32_t count_shown(uint64_t fence, const void *record, void *user) {
     CHECK(fence == 77 && ((const locus_point32 *)record)->device == 1);
     ++*(int *)user;
     return 0;
-}
-
-static locus_point32 point(double latitude, double longitude, int64_t time, uint16_t device) {
-    locus_point32 result;
-    memset(&result, 0, sizeof result);
-    result.latitude = latitude;
-    result.longitude = longitude;
-    result.time = time;
-    result.device = device;
-    return result;
 }
 
 static void defaults(void) {

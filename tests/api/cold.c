@@ -4,6 +4,7 @@
 #include <locus/cold.h>
 
 #include "check.h"
+#include "point.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,16 +24,6 @@ static void remove_files(void) {
         remove(name);
     }
     remove(folder);
-}
-
-static locus_point32 point(double latitude, double longitude, int64_t time, uint16_t device) {
-    locus_point32 result;
-    memset(&result, 0, sizeof result);
-    result.latitude = latitude;
-    result.longitude = longitude;
-    result.time = time;
-    result.device = device;
-    return result;
 }
 
 static locus_cold_options defaults(void) {

@@ -1,21 +1,12 @@
 /* locus/pmq.h: a walk through the calls, and every bad argument. */
 #include "check.h"
+#include "point.h"
 
 #include <locus/pmq.h>
 
 #include <math.h>
 
 #define SECOND ((int64_t)1000000)
-
-static locus_point32 point(double latitude, double longitude, int64_t time, uint16_t device) {
-    locus_point32 result;
-    memset(&result, 0, sizeof result);
-    result.latitude = latitude;
-    result.longitude = longitude;
-    result.time = time;
-    result.device = device;
-    return result;
-}
 
 static locus_pmq_query everything(void) {
     locus_pmq_query query;
