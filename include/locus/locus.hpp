@@ -1,5 +1,5 @@
 /* locus/locus.hpp - C++17 owner types for everything of Locus but the file formats (locus/volume.hpp,
- * locus/records.hpp).
+ * locus/records.hpp) and the cold tier (locus/cold.hpp), which are in libraries of their own.
  *
  * locus::graph, diagram, weights, pmq, snapshot and alerts own the handles of the C interface: they move and do not
  * copy, end their handle when they end, and hold nothing else but what their callbacks need. Header-only, on the C

@@ -168,7 +168,37 @@ struct ranked {
 
 namespace detail {
 struct storage;
+
+/* A visitor during one call. */
+template <class Record>
+struct visit_call {
+    const callback<bool(const Record &)> &visitor;
+    detail::thrown thrown;
+    static std::int32_t at(const void *record, void *user) noexcept {
+        auto &call = *static_cast<visit_call *>(user);
+        return call.thrown.guard(std::int32_t{1},
+                                 [&] { return call.visitor(*static_cast<const Record *>(record)) ? 0 : 1; });
+    }
+};
+
+/* Read into a vector that is made as large as `count` says and `read` finds. */
+template <class Record, class Count, class Read>
+std::vector<Record> read_all(Count &&count, Read &&read, status *result) {
+    status state;
+    std::vector<Record> records;
+    std::size_t found = static_cast<std::size_t>(count(&state));
+    while (state.ok()) {
+        records.resize(found);
+        found = read(span<Record>(records), &state);
+        if (state.code() != LOCUS_E_CAPACITY)
+            break;
+        state = {};
+    }
+    records.resize(state.ok() ? found : 0);
+    settle(state.code(), result, state.text());
+    return records;
 }
+} // namespace detail
 template <class Record>
 class alerts;
 
@@ -221,25 +251,15 @@ public:
     }
     /* Read into a new vector; beside a writer, until it is large enough. */
     std::vector<Record> read(const query &what = {}, status *result = nullptr) const {
-        status state;
-        std::vector<Record> records;
-        std::size_t count = static_cast<std::size_t>(this->count(what, &state));
-        while (state.ok()) {
-            records.resize(count);
-            count = read(records, what, &state);
-            if (state.code() != LOCUS_E_CAPACITY)
-                break;
-            state = {};
-        }
-        records.resize(state.ok() ? count : 0);
-        detail::settle(state.code(), result, state.text());
-        return records;
+        return detail::read_all<Record>([&](status *state) { return count(what, state); },
+                                        [&](span<Record> into, status *state) { return read(into, what, state); },
+                                        result);
     }
     /* Show the records to a lambda; false stops, and the status is LOCUS_E_STOPPED. */
     void visit(const callback<bool(const Record &)> &visitor, const query &what = {}, status *result = nullptr) const {
         typename query::asked asked(what);
-        visit_call call{visitor, {}};
-        const locus_status code = locus_pmq_visit(get(), asked.get(), visit_call::at, &call);
+        detail::visit_call<Record> call{visitor, {}};
+        const locus_status code = locus_pmq_visit(get(), asked.get(), call.at, &call);
         call.thrown.rethrow();
         answer(asked, code, result);
     }
@@ -347,15 +367,6 @@ private:
             kept.thrown->guard(0, [&] { return kept.log(level, text), 0; });
         }
     };
-    struct visit_call {
-        const callback<bool(const Record &)> &visitor;
-        detail::thrown thrown;
-        static std::int32_t at(const void *record, void *user) noexcept {
-            auto &call = *static_cast<visit_call *>(user);
-            return call.thrown.guard(std::int32_t{1},
-                                     [&] { return call.visitor(*static_cast<const Record *>(record)) ? 0 : 1; });
-        }
-    };
 
     /* A lambda that says something of each record; after it has thrown, the rest gets no answer of use. */
     template <class Said>
@@ -371,12 +382,17 @@ private:
     explicit pmq(std::nullptr_t) noexcept {}
     template <class Create>
     void make(const pmq_options<Record> &options, status *result, Create &&create) {
-        callbacks_ = std::make_unique<callbacks>(options);
         locus_pmq_options plain = options;
+        if (options.sink && plain.sink != nullptr) {
+            detail::settle(LOCUS_E_ARGUMENT, result, "locus::pmq: options.sink is set, and so is that of a cold tier");
+            return;
+        }
+        callbacks_ = std::make_unique<callbacks>(options);
         plain.remove = options.remove ? callbacks::on_remove : nullptr;
-        plain.sink = options.sink ? callbacks::on_sink : nullptr;
+        if (options.sink) /* else what locus::cold::attach has set */
+            plain.sink = callbacks::on_sink, plain.sink_user = callbacks_.get();
         plain.log = options.log ? callbacks::on_log : nullptr;
-        plain.remove_user = plain.sink_user = plain.log_user = callbacks_.get();
+        plain.remove_user = plain.log_user = callbacks_.get();
         locus_pmq *made = nullptr;
         const locus_status code = create(plain, &made);
         handle_.reset(made);

@@ -17,7 +17,8 @@ for compiler in g++ clang++; do
     # The unit tests themselves are built as C++20.
     for file in tests/unit/cpp/*.cpp; do "$compiler" "${warn[@]}" -std=c++17 -fsyntax-only "$file"; done
     echo "$compiler -std=c++17: the unit tests compile"
-    "$compiler" "${warn[@]}" -std=c++17 -fno-exceptions -x c++ - -L"$library" -llocus -Wl,-rpath,"$(realpath "$library")" -o "$work/plain" <<'END'
+    "$compiler" "${warn[@]}" -std=c++17 -fno-exceptions -x c++ - -L"$library" -llocus_cold -llocus -Wl,-rpath,"$(realpath "$library")" -o "$work/plain" <<'END'
+#include <locus/cold.hpp>
 #include <locus/locus.hpp>
 #include <locus/records.hpp>
 #include <locus/volume.hpp>
@@ -28,7 +29,9 @@ int main() {
     std::printf("%s\n", status.text().c_str());
     locus::pmq<> store({}, &status);
     store.count(locus::query<>().where([](const locus_point32 &) { return true; }), &status);
-    return !graph && status.ok() ? 0 : 1;
+    const bool counted = status.ok();
+    const locus::cold<> tier("/no/such/folder/tier.db", {}, &status);
+    return !graph && counted && !tier && status.code() == LOCUS_E_IO ? 0 : 1;
 }
 END
     "$work/plain" | grep -q dims

@@ -4,7 +4,7 @@ bindings: bindings-cpp bindings-node bindings-python bindings-rust bindings-cove
 check: bindings
 
 # The C++ types of include/locus/*.hpp; their unit tests are unit-cpp.
-bindings-cpp: $(SHARED_locus) | $(call needs,test)
+bindings-cpp: $(SHARED_locus) $(SHARED_locus_cold) | $(call needs,test)
 	$(STAGE) $(FLAVOUR)$@ tests/bindings/cpp.sh $(OUT)
 
 # The Node.js package: koffi, and the compiler that checks the types, from npm at the versions of the lock file.
