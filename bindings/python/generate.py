@@ -23,7 +23,7 @@ ENUMS = {
     "LOG": "LogLevel", "ALERT": "AlertKind", "WEIGHT": "WeightRule", "MATERIAL": "Material", "WORD": "Word", "BACKEND": "Backend", "SIMD": "Simd",
     "ENGINE": "Engine", "PLACE": "Metric", "METHOD": "Method", "RECORD": "Record", "LAYOUT": "Layout", "INDEX": "Index",
     "FUTURE": "Future", "FIELD": "Field", "SYNC": "Sync", "RECORDS": "RecordsFormat", "TIME": "TimeUnit", "BAD_LINES": "BadLines", "VOXEL": "Voxel",
-    "VOLUME": "VolumeFormat",
+    "VOLUME": "VolumeFormat", "COLD_SYNC": "ColdSync", "COLD_FULL": "ColdFull",
 }  # fmt: skip
 # Structs that calls fill in: frozen dataclasses without the size and the spare fields.
 FILLED = re.compile(r"locus_(\w+_(?:info|stats|recovery))$")

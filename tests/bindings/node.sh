@@ -1,6 +1,6 @@
 #!/bin/bash
 # tests/bindings/node.sh FOLDER: the Node.js package's tests, its structs against C, the tour with its picture into FOLDER, and an
-# installation of the package as npm packs it. LOCUS_LIBRARY and LOCUS_IO_LIBRARY say with what; bindings/node/node_modules is there.
+# installation of the package as npm packs it. LOCUS_LIBRARY, LOCUS_IO_LIBRARY and LOCUS_COLD_LIBRARY say with what; bindings/node/node_modules is there.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 pictures=$(mkdir -p "$1" && realpath "$1")

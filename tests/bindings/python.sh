@@ -1,6 +1,6 @@
 #!/bin/bash
 # tests/bindings/python.sh: the Python package's tests, its structs against C, and an installation by pip, off the network.
-# PYTHON, LOCUS_LIBRARY and LOCUS_IO_LIBRARY say with what.
+# PYTHON, LOCUS_LIBRARY, LOCUS_IO_LIBRARY and LOCUS_COLD_LIBRARY say with what.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)

@@ -1,14 +1,15 @@
 """Locus: data that changes all the time, close in memory.
 
 Two engines: the voxel graph (`Graph`, `Diagram`, `Weights`), exact compliance distances, Voronoi diagrams and interpolation weights
-on 3-D volumes; and the PMQ (`Store`, `Snapshot`, `Query`), the live window of a geo-located stream. `read_volume`, `write_volume` and
-`Records` read and write files.
+on 3-D volumes; and the PMQ (`Store`, `Snapshot`, `Query`), the live window of a geo-located stream, with `Cold` for what leaves it.
+`read_volume`, `write_volume` and `Records` read and write files.
 """
 
 from . import constants
 from ._library import LIBRARY_PATH, version
 from ._structs import (
     AlertsStats,
+    ColdStats,
     DiagramStats,
     GraphInfo,
     PmqFileInfo,
@@ -19,12 +20,15 @@ from ._structs import (
     VolumeInfo,
 )
 from .alerts import ALERT, Alerts
+from .cold import Cold
 from .constants import (
     EARTH_RADIUS,
     NO_SEED,
     AlertKind,
     BadLines,
     Backend,
+    ColdFull,
+    ColdSync,
     Engine,
     Field,
     Future,
@@ -70,7 +74,7 @@ from .weights import Rows, Weights
 
 __all__ = [
     "ALERT", "AlertKind", "Alerts", "AlertsStats", "ArgumentError", "Backend", "BadLines", "Box", "BusyError",
-    "CapacityError", "CELL_PAIR", "Change", "Circle", "constants", "DeviceError", "Diagram", "DiagramStats", "EARTH_RADIUS",
+    "CapacityError", "CELL_PAIR", "Change", "Circle", "Cold", "ColdFull", "ColdStats", "ColdSync", "constants", "DeviceError", "Diagram", "DiagramStats", "EARTH_RADIUS",
     "Engine", "Error", "Field", "file_info", "FormatError", "Future", "Graph", "GraphInfo", "GROUP", "Index", "InternalError",
     "IoError", "Layout", "LIBRARY_PATH", "LibraryError", "LogLevel", "Material", "Method", "Metric", "NO_SEED",
     "OutOfMemoryError", "pmq_key", "PmqFileInfo", "PmqLogStats", "PmqRecovery", "PmqStats", "POINT32", "Query", "RangeError",

@@ -1,4 +1,4 @@
-"""Find and open liblocus and liblocus_io, and turn their statuses into exceptions."""
+"""Find and open liblocus, liblocus_io and liblocus_cold, and turn their statuses into exceptions."""
 
 import glob
 import os
@@ -36,7 +36,10 @@ def _open(name: str, variable: str, folder: str | None = None) -> tuple[Any, str
     tried = []
     for place in filter(None, (folder, os.path.dirname(os.path.abspath(__file__)))):
         for path in sorted(glob.glob(os.path.join(place, f"lib{name}{_SONAME}"))):
-            return ffi.dlopen(path), path
+            try:
+                return ffi.dlopen(path), path
+            except OSError as error:
+                tried.append(f"{path} ({error})")
         tried.append(place)
     path = f"lib{name}{_SONAME}"
     try:
@@ -72,10 +75,20 @@ _check_version(lib, LIBRARY_PATH)
 
 
 @lru_cache(maxsize=None)
-def io_library() -> Any:
-    """liblocus_io, opened when it is first needed."""
+def _other(name: str, variable: str) -> Any:
+    """A library beside liblocus, opened when it is first needed."""
     folder = os.path.dirname(LIBRARY_PATH) if os.sep in LIBRARY_PATH else None
-    return _open("locus_io", "LOCUS_IO_LIBRARY", folder)[0]
+    return _open(name, variable, folder)[0]
+
+
+def io_library() -> Any:
+    """liblocus_io, the file formats."""
+    return _other("locus_io", "LOCUS_IO_LIBRARY")
+
+
+def cold_library() -> Any:
+    """liblocus_cold, the cold tier, which needs SQLite."""
+    return _other("locus_cold", "LOCUS_COLD_LIBRARY")
 
 
 def text(pointer: Any) -> str:
@@ -93,6 +106,12 @@ def check_io(status: int) -> None:
     """Raise the exception of a failed call of liblocus_io."""
     if status:
         raise error_for(status, text(io_library().locus_io_last_error()), text(lib.locus_status_name(status)))
+
+
+def check_cold(status: int) -> None:
+    """Raise the exception of a failed call of liblocus_cold."""
+    if status:
+        raise error_for(status, text(cold_library().locus_cold_last_error()), text(lib.locus_status_name(status)))
 
 
 def version() -> str:

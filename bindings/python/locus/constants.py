@@ -30,11 +30,6 @@ REGION_BOX: Final = 1
 REGION_CIRCLE: Final = 2
 REGION_POLYGON: Final = 3
 KEY_END: Final = 1125899906842624
-COLD_SYNC_OFF: Final = 0
-COLD_SYNC_NORMAL: Final = 1
-COLD_SYNC_FULL: Final = 2
-COLD_FULL_WAIT: Final = 0
-COLD_FULL_REFUSE: Final = 1
 NO_SEED: Final = 4294967295
 ALL_SEEDS: Final = 0
 READ_FLOAT: Final = 0
@@ -92,6 +87,21 @@ class AlertKind(IntEnum):
     JUMP = 0
     RATE = 1
     SHARE = 2
+
+
+class ColdSync(IntEnum):
+    """LOCUS_COLD_SYNC_."""
+
+    OFF = 0
+    NORMAL = 1
+    FULL = 2
+
+
+class ColdFull(IntEnum):
+    """LOCUS_COLD_FULL_."""
+
+    WAIT = 0
+    REFUSE = 1
 
 
 class WeightRule(IntEnum):

@@ -5,7 +5,7 @@ import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +18,9 @@ from ._structs import PmqFileInfo, PmqLogStats, PmqRecovery, PmqStats
 from ._values import Array, dtype_of, empty_struct, enum_value, filled, filled_options, microseconds, pointer, readable, writable
 from .constants import E_BUSY, E_CAPACITY, REGION_BOX, REGION_CIRCLE, REGION_POLYGON, Field, Future, Index, Layout, Record, Sync
 from .errors import error_for
+
+if TYPE_CHECKING:
+    from .cold import Cold
 
 #: A record of 32 bytes. Times are microseconds since 1970-01-01 UTC: ``records["time"].view("datetime64[us]")`` is no copy.
 POINT32 = dtype_of("locus_point32")
@@ -205,11 +208,45 @@ class Asked:
         self.c.region = REGION_POLYGON
         self.c.polygon = (pointer(vertices, "locus_position *"), pointer(sizes, "uint64_t *"), len(each))
 
-    def settle(self, status: int) -> None:
+    def settle(self, status: int, checked: Callable[[int], None] = check) -> None:
         if self.callbacks is not None:
-            self.callbacks.settle(status)
+            self.callbacks.settle(status, checked)
         else:
-            check(status)
+            checked(status)
+
+    def read(
+        self, dtype: np.dtype[Any], out: Array | None, room: Callable[[], int], fill: Callable[[Any, int, Any], int],
+        checked: Callable[[int], None] = check,
+    ) -> Array:  # fmt: skip
+        """What ``fill(memory, capacity, count)`` reads into `out`, or into memory for ``room()`` records, which grows where more came."""
+        array = np.empty(room(), dtype) if out is None else writable(out, dtype, (out.size,))
+        count = ffi.new("size_t *")
+        while True:
+            status = fill(pointer(array), len(array), count)
+            if status != E_CAPACITY or out is not None:
+                break
+            array = np.empty(count[0], dtype)
+        self.settle(status, checked)
+        return array[: count[0]]
+
+    def visit(
+        self, dtype: np.dtype[Any], visitor: Callable[[Any], object], show: Callable[[Any, Any], int],
+        checked: Callable[[int], None] = check,
+    ) -> bool:  # fmt: skip
+        """Let ``show(callback, user)`` show records to the visitor until that returns False. True: all were shown."""
+        stopped = [False]
+
+        def shown(record: Any) -> bool:
+            stopped[0] = visitor(record) is False
+            return not stopped[0]
+
+        call = Callbacks(visitor=shown, record=OneRecord(dtype))
+        call.also = self.callbacks
+        status = show(_on_visit, call.handle)
+        if call.raised is None and stopped[0]:
+            return False
+        call.settle(status, checked)
+        return True
 
 
 class _Reader:
@@ -250,37 +287,15 @@ class _Reader:
         ndarray
             The records; with `out`, the part of it that was filled.
         """
-        asked, count = self._asked(query), ffi.new("size_t *")
-        if out is not None:
-            array = writable(out, self._dtype, (out.size,))
-            asked.settle(lib.locus_pmq_read(self._handle, asked.c, pointer(array), len(array), count))
-            return array[: count[0]]
-        # Records may come in between two calls: until the memory is enough.
-        array = np.empty(self.count(query), self._dtype)
-        while True:
-            status = lib.locus_pmq_read(self._handle, asked.c, pointer(array), len(array), count)
-            if status != E_CAPACITY:
-                break
-            array = np.empty(count[0], self._dtype)
-        asked.settle(status)
-        return array[: count[0]]
+        asked = self._asked(query)
+        return asked.read(
+            self._dtype, out, lambda: self.count(query), lambda *into: lib.locus_pmq_read(self._handle, asked.c, *into)
+        )
 
     def visit(self, visitor: Callable[[Any], object], query: Query | None = None) -> bool:
         """Show the same records to ``visitor(record)``, one by one, until it returns False. True: all were shown."""
         asked = self._asked(query)
-        stopped = [False]
-
-        def shown(record: Any) -> bool:
-            stopped[0] = visitor(record) is False
-            return not stopped[0]
-
-        call = Callbacks(visitor=shown, record=OneRecord(self._dtype))
-        call.also = asked.callbacks
-        status = lib.locus_pmq_visit(self._handle, asked.c, _on_visit, call.handle)
-        if call.raised is None and stopped[0]:
-            return False
-        call.settle(status)
-        return True
+        return asked.visit(self._dtype, visitor, lambda *call: lib.locus_pmq_visit(self._handle, asked.c, *call))
 
     def pages(self, size: int = 65536, query: Query | None = None) -> Iterator[Array]:
         """Read the same records page by page, in the store's order.
@@ -433,6 +448,8 @@ class Store(_Reader):
     sink : callable, optional
         ``sink(records)`` takes over, as an array, the records that left. Where it raises, the array is handed over again with the
         next insert, sweep or erase.
+    cold : Cold, optional
+        The tier that takes over, instead of a `sink`, the records that left; for one store at a time.
     log : callable, optional
         ``log(level, text)``.
     segment_slots, rho_leaf, tau_leaf, rho_root, tau_root, snapshot_bytes : optional
@@ -443,7 +460,7 @@ class Store(_Reader):
         self, record: Record | str = Record.POINT32, *, horizon: Span | None = None, max_records: int | None = None,
         max_bytes: int | None = None, layout: Layout | str = Layout.RING_LEAVES, index: Index | str = Index.IMPLICIT,
         future: Future | str = Future.REFUSE, remove: Predicate | None = None, sink: Callable[[Array], object] | None = None,
-        log: Log | None = None, segment_slots: int | None = None, rho_leaf: float | None = None, tau_leaf: float | None = None,
+        cold: "Cold | None" = None, log: Log | None = None, segment_slots: int | None = None, rho_leaf: float | None = None, tau_leaf: float | None = None,
         rho_root: float | None = None, tau_root: float | None = None, snapshot_bytes: int | None = None,
         _create: Callable[[Any, Any], None] | None = None,
     ) -> None:  # fmt: skip
@@ -462,6 +479,11 @@ class Store(_Reader):
             if given is not None:
                 setattr(options, name, function)
                 setattr(options, f"{name}_user", self._callbacks.handle)
+        self._cold = cold
+        if cold is not None:
+            if sink is not None:
+                raise ValueError("a store has a sink or a cold tier, not both")
+            cold._attach(options)
         # What watches the store (locus.Alerts), and the lock that keeps its end and an insert of another thread apart.
         self._watchers: list[Any] = []
         self._watching = threading.RLock()
@@ -470,7 +492,10 @@ class Store(_Reader):
             _create(options, made)
         else:
             check(lib.locus_pmq_create(options, made))
-        self._handle = ffi.gc(made[0], lib.locus_pmq_destroy)
+        # The tier ends behind its store.
+        self._handle = ffi.gc(made[0], lambda handle, _tier=cold: lib.locus_pmq_destroy(handle))
+        if cold is not None:
+            cold._attached(self)
         self._recovery: PmqRecovery | None = None
 
     @classmethod
@@ -564,6 +589,11 @@ class Store(_Reader):
     def __repr__(self) -> str:
         return f"<locus.Store of {self.count()} records>"
 
+    def _outside(self) -> None:
+        """A function that the cold tier calls must not change the store."""
+        if self._cold is not None:
+            self._cold._outside()
+
     def _changed(self, status: int) -> None:
         """After a change: the sink gets what left, then what a callback raised, or the status, is raised."""
         if self._sink is not None and self._callbacks.raised is None:
@@ -586,6 +616,7 @@ class Store(_Reader):
         if not isinstance(records, np.ndarray) or records.dtype != self._dtype:
             raise ValueError(f"records must be an array of the dtype {self._dtype}, not {getattr(records, 'dtype', type(records))}")
         array = readable(records, self._dtype, "records")
+        self._outside()
         if not self._watching.acquire(blocking=False):
             raise error_for(E_BUSY, "Store.insert: another thread changes the store", "LOCUS_E_BUSY")
         try:
@@ -595,12 +626,14 @@ class Store(_Reader):
 
     def sweep(self, now: Time) -> int:
         """Set the clock and evict everything that may go; returns how many records left."""
+        self._outside()
         evicted = ffi.new("uint64_t *")
         self._changed(lib.locus_pmq_sweep(self._handle, microseconds(now), evicted))
         return int(evicted[0])
 
     def erase(self, query: Query | None = None) -> int:
         """Remove the live records that the query selects and hand them to the sink; returns how many they were."""
+        self._outside()
         asked, erased = self._asked(query), ffi.new("uint64_t *")
         status = lib.locus_pmq_erase(self._handle, asked.c, erased)
         if asked.callbacks is not None and asked.callbacks.raised is not None:

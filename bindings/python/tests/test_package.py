@@ -15,10 +15,10 @@ PACKAGE = Path(locus.__file__).parent
 HERE = Path(__file__).resolve().parents[1]
 
 
-def python(program, **variables):
+def python(program, cwd="/", **variables):
     environment = {**os.environ, "PYTHONPATH": str(PACKAGE.parent), **variables}
     environment = {name: value for name, value in environment.items() if value is not None}
-    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, env=environment, cwd="/")
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, env=environment, cwd=cwd)
 
 
 def test_the_generated_files_are_current():
@@ -80,10 +80,10 @@ def test_everything_named_is_documented():
                 assert value.__doc__, f"{name}.{member}"
 
 
-def test_the_readme_runs():
+def test_the_readme_runs(tmp_path):
     text = (HERE / "README.md").read_text()
     programs = re.findall(r"^```python\n(.*?)^```\n(?:\nprints\n\n```text\n(.*?)^```)?", text, flags=re.M | re.S)
     assert programs
     for program, printed in programs:
-        done = python(program)
+        done = python(program, tmp_path)
         assert (done.returncode, done.stdout) == (0, printed), done.stderr

@@ -40,7 +40,9 @@ locus::pmq_options<> last_100_seconds() {
 
 // Numbers of records, in the order of a plain sort by (key, time): what reading both tiers gives.
 std::vector<uint16_t> in_order(std::vector<locus_point32> records) {
-    const auto place = [](const locus_point32 &r) { return std::pair(locus::pmq_key(r.latitude, r.longitude), r.time); };
+    const auto place = [](const locus_point32 &r) {
+        return std::pair(locus::pmq_key(r.latitude, r.longitude), r.time);
+    };
     std::sort(records.begin(), records.end(), [&](const auto &a, const auto &b) { return place(a) < place(b); });
     std::vector<uint16_t> numbers;
     for (const auto &record : records)
