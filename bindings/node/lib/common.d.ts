@@ -7,6 +7,8 @@ export type Member<Names extends string> = number | Lowercase<Names> | Names;
 
 export type AlertKindName = 'JUMP' | 'RATE' | 'SHARE';
 export type BackendName = 'AUTO' | 'CPU' | 'CUDA';
+export type ColdFullName = 'WAIT' | 'REFUSE';
+export type ColdSyncName = 'OFF' | 'NORMAL' | 'FULL';
 export type EngineName = 'AUTO' | 'HEAP' | 'BUCKET' | 'RELAX' | 'BRICKS' | 'COMPACT';
 export type FieldName = 'DEVICE' | 'APPLICATION' | 'LANGUAGE';
 export type FutureName = 'REFUSE' | 'CLAMP';
@@ -34,6 +36,10 @@ export type WordName = 'AUTO' | 'BITS_32' | 'BITS_64';
 export const AlertKind: Enumeration<AlertKindName>;
 /** Where diagrams and Sibson's weights are computed. */
 export const Backend: Enumeration<BackendName>;
+/** What a change of a store does while its cold tier's queue is full. */
+export const ColdFull: Enumeration<ColdFullName>;
+/** How a cold tier's file is made safe against loss of power. */
+export const ColdSync: Enumeration<ColdSyncName>;
 /** What solves a diagram; all give the same bits. */
 export const Engine: Enumeration<EngineName>;
 /** Fields to group records by. */

@@ -11,6 +11,8 @@ function enumeration(prefix, but = []) {
 
 export const AlertKind = enumeration('ALERT');
 export const Backend = enumeration('BACKEND');
+export const ColdFull = enumeration('COLD_FULL');
+export const ColdSync = enumeration('COLD_SYNC');
 export const Engine = enumeration('ENGINE');
 export const Field = enumeration('FIELD', ['FIELD_CALLER']);
 export const Future = enumeration('FUTURE');

@@ -23,6 +23,7 @@ export { Graph } from './graph.js';
 export { Diagram } from './diagram.js';
 export { Weights } from './weights.js';
 export { Snapshot, Store, fileInfo, pmqKey } from './store.js';
+export { Cold } from './cold.js';
 export { Alerts } from './alerts.js';
 export { RecordReader } from './recordreader.js';
 export { readVolume, readVolumeInfo, readVolumeSync, writeVolume, writeVolumeSync } from './volume.js';

@@ -1,4 +1,4 @@
-// Find liblocus and liblocus_io.
+// Find liblocus, liblocus_io and liblocus_cold.
 import { spawnSync } from 'node:child_process';
 import { existsSync, statSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -8,7 +8,7 @@ import { LibraryError } from './errors.js';
 import { Native } from './native.js';
 
 const SONAME = `.so.${CONSTANTS.VERSION_MAJOR}`;
-const VARIABLES = { liblocus: 'LOCUS_LIBRARY', liblocus_io: 'LOCUS_IO_LIBRARY' };
+const VARIABLES = { liblocus: 'LOCUS_LIBRARY', liblocus_io: 'LOCUS_IO_LIBRARY', liblocus_cold: 'LOCUS_COLD_LIBRARY' };
 const opened = {};
 
 /** The folder of libraries that pkg-config names. */
@@ -89,9 +89,9 @@ function checkVersion() {
 /** The path or name that liblocus was opened by. */
 export const LIBRARY_PATH = checkVersion();
 
-/** The paths of the libraries, for a worker; liblocus_io's only where `name` asks for it. */
+/** The paths of the libraries, for a worker; but liblocus only where `name` asks for them. */
 export function pathsFor(name) {
-  if (name === 'liblocus_io') open(name);
+  open(name);
   return { ...opened };
 }
 

@@ -2,13 +2,16 @@
 import koffi from 'koffi';
 import { FUNCTIONS } from './interface.js';
 
+/** The functions that tell what went wrong. */
+const TEXTS = { liblocus: 'locus_last_error', liblocus_io: 'locus_io_last_error', liblocus_cold: 'locus_cold_last_error' };
+
 /** Opens a library when one of its functions is first asked for, and declares each function once. */
 export class Native {
   #open;
   #libraries = new Map();
   #functions = new Map();
 
-  /** @param {(name: string) => string} open the path of liblocus or liblocus_io */
+  /** @param {(name: string) => string} open the path of liblocus, liblocus_io or liblocus_cold */
   constructor(open) {
     this.#open = open;
   }
@@ -24,7 +27,7 @@ export class Native {
     return found;
   }
 
-  /** liblocus or liblocus_io. */
+  /** liblocus, liblocus_io or liblocus_cold. */
   library(name) {
     let library = this.#libraries.get(name);
     if (!library) {
@@ -39,8 +42,7 @@ export class Native {
     const [library, result] = FUNCTIONS[name];
     const value = this.get(name)(...args);
     if (result !== 'int32_t') return { status: 0, value };
-    const text = library === 'liblocus' ? 'locus_last_error' : 'locus_io_last_error';
-    return value === 0 ? { status: 0 } : { status: value, text: this.get(text)(), code: this.get('locus_status_name')(value) };
+    return value === 0 ? { status: 0 } : { status: value, text: this.get(TEXTS[library])(), code: this.get('locus_status_name')(value) };
   }
 }
 

@@ -12,6 +12,41 @@ const sideOf = (log2Bins) => 2 ** Math.min(size(log2Bins, 'log2Bins'), 8);
 /** A tile and its bins, checked. */
 const tileArgs = (tile) => tile.map(([name, value]) => Number(integer(value, 'uint32_t', name)));
 
+/** The body of a question that reads into `out` or new memory, by the functions that count and read. */
+export function reading(Records, out, counting, copying) {
+  if (out && !(out instanceof Records)) throw new TypeError(`out must be a ${Records.name}, not ${out.constructor?.name}`);
+  return function* body(asked) {
+    const count = number64();
+    let array = out;
+    if (!array) {
+      yield* must(counting, ...asked, count);
+      array = new Records(Number(count[0]));
+    }
+    for (;;) {
+      const told = yield call(copying, ...asked, array.bytes, array.length, count);
+      if (out || told.status !== Status.CAPACITY) check(told);
+      if (told.status === 0) return array.subarray(0, Number(count[0]));
+      // Records came in between the two calls.
+      array = new Records(Number(count[0]));
+    }
+  };
+}
+
+/** The body of a question that shows records to a function, until that returns false. */
+export function showing(record, visitor, visiting) {
+  const shown = new Shown(record);
+  let stopped = false;
+  return function* body(asked, work) {
+    const visit = work.callback('locus_visit_fn', (address) => {
+      stopped = visitor(shown.next(address)) === false;
+      return stopped ? 1 : 0;
+    }, 1);
+    const told = yield call(visiting, ...asked, visit, null);
+    if (!stopped) check(told);
+    return !stopped;
+  };
+}
+
 /** What Store and Snapshot have in common. */
 export class Reader {
   /** The class of the records' arrays. */
@@ -45,23 +80,8 @@ export class Reader {
   }
 
   #read(query, out) {
-    const { Records } = this;
-    if (out && !(out instanceof Records)) throw new TypeError(`out must be a ${Records.name}, not ${out.constructor?.name}`);
-    return this.#asking(query, function* body(store, asked) {
-      const count = number64();
-      let array = out;
-      if (!array) {
-        yield* must('locus_pmq_count', store, asked, count);
-        array = new Records(Number(count[0]));
-      }
-      for (;;) {
-        const told = yield call('locus_pmq_read', store, asked, array.bytes, array.length, count);
-        if (out || told.status !== Status.CAPACITY) check(told);
-        if (told.status === 0) return array.subarray(0, Number(count[0]));
-        // Records came in between the two calls.
-        array = new Records(Number(count[0]));
-      }
-    });
+    const body = reading(this.Records, out, 'locus_pmq_count', 'locus_pmq_read');
+    return this.#asking(query, (store, asked) => body([store, asked]));
   }
 
   readSync(query, out) {
@@ -73,17 +93,8 @@ export class Reader {
   }
 
   visitSync(visitor, query) {
-    const shown = new Shown(this[INNER].record);
-    let stopped = false;
-    return here(`${this.constructor.name}.visit`, this.#asking(query, function* body(store, asked, work) {
-      const visit = work.callback('locus_visit_fn', (address) => {
-        stopped = visitor(shown.next(address)) === false;
-        return stopped ? 1 : 0;
-      }, 1);
-      const told = yield call('locus_pmq_visit', store, asked, visit, null);
-      if (!stopped) check(told);
-      return !stopped;
-    }));
+    const body = showing(this[INNER].record, visitor, 'locus_pmq_visit');
+    return here(`${this.constructor.name}.visit`, this.#asking(query, (store, asked, work) => body([store, asked], work)));
   }
 
   /** The next page at a cursor, { records, size }: where one place holds more than a page, the size grows. */

@@ -1,5 +1,6 @@
 // The PMQ: the live window of a stream of geo-located records, in memory, sorted along the Z-curve.
 import { Callbacks } from './callbacks.js';
+import { attach, outside } from './cold.js';
 import { Future, Index, Layout, Record, Sync } from './constants.js';
 import { DISPOSE, Handle, INNER, Made, PROGRESS, away, filled, guarded, here, must, number64, options, quick } from './call.js';
 import { LocusError } from './errors.js';
@@ -96,15 +97,20 @@ function* make(work, given, create) {
   const record = enumValue(Record, given.record ?? Record.POINT32, 'record');
   if (!ARRAYS[record]) throw new RangeError(`record is ${record}, not ${Object.values(Record).join(' or ')}`);
   const { callbacks, sink, fields } = callbacksOf(given, record);
+  const { cold } = given;
   const made = number64();
+  let detach;
   try {
     work.uses(callbacks);
     work.listen(given);
-    const recovery = yield* create(storeOptions(given, record, fields), made);
-    return { address: made[0], callbacks, sink, record, recovery };
+    const plain = storeOptions(given, record, fields);
+    detach = attach(cold, plain);
+    const recovery = yield* create(plain, made);
+    return { address: made[0], callbacks, sink, record, recovery, cold, detach };
   } catch (error) {
     native.get('locus_pmq_destroy')(made[0]);
     callbacks.release();
+    detach?.();
     throw error;
   }
 }
@@ -154,12 +160,14 @@ export class Snapshot extends Reader {
 export class Store extends Reader {
   constructor(given = {}) {
     super();
-    const { address, callbacks, sink, record, recovery } =
+    const { address, callbacks, sink, record, recovery, cold, detach } =
       given instanceof Made ? given.made : here('new Store', (work) => creating(work, given));
-    const store = new Handle(this, 'locus_pmq_destroy', address, callbacks);
+    // Behind it go its functions, and it lets go of its tier.
+    const release = () => (callbacks.release(), detach?.());
+    const store = new Handle(this, 'locus_pmq_destroy', address, { release });
     // What watches the store (Alerts), and how many changes are at work, on this thread and on workers.
     const changes = { watchers: new Set(), ended: [], here: 0, away: 0 };
-    this[INNER] = { guard: new Guard('Store'), store, callbacks, sink, record, changes };
+    this[INNER] = { guard: new Guard('Store'), store, callbacks, sink, record, cold, changes };
     this.recovery = recovery;
   }
 
@@ -185,8 +193,9 @@ export class Store extends Reader {
 
   /** A change: behind it the sink gets what left. */
   #changing(body) {
-    const { guard, callbacks, sink, changes } = this[INNER];
+    const { guard, callbacks, sink, cold, changes } = this[INNER];
     return (work) => {
+      outside(cold);
       work.uses(callbacks);
       for (const watcher of changes.watchers) work.uses(watcher[INNER].callbacks);
       const place = work.here ? 'here' : 'away';

@@ -1,4 +1,5 @@
 // Records, stores, snapshots and alerts.
+import type { Cold } from './cold.js';
 import type {
   AlertKind,
   BusyError,
@@ -194,6 +195,8 @@ export interface StoreOptions<Value = Point32> {
   remove?: (record: View<Value>) => unknown;
   /** Takes over the records that left. Where it throws, the array is handed over again with the next change. */
   sink?: (records: ArrayOf<Value>) => void;
+  /** Takes over, instead of a sink, the records that left; for one store at a time. */
+  cold?: Cold<Value>;
   log?: Log;
   /** As in locus_pmq_options. */
   segmentSlots?: number;

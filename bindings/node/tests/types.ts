@@ -1,7 +1,7 @@
 // Compiled and never run: what the types allow, and, behind the expected errors, what they refuse.
 import {
-  Alerts, Diagram, Engine, Graph, HOUR, LocusError, Point32Array, RecordReader, Snapshot, Status, Store, Text156, Text156Array, Weights,
-  readVolume, version, writeVolume,
+  Alerts, Cold, ColdSync, Diagram, Engine, Graph, HOUR, LocusError, Point32, Point32Array, RecordReader, Snapshot, Status, Store, Text156,
+  Text156Array, Weights, readVolume, version, writeVolume,
 } from '../lib/index.js';
 
 async function voxels(): Promise<number> {
@@ -42,8 +42,21 @@ async function streams(): Promise<void> {
   await writeVolume('again.mha', data, { dims: [info.dims[0]!, points.length, 1] });
 }
 
+async function tiers(): Promise<number> {
+  const cold = await Cold.open<Text156>('posts.db', { record: 'text156', sync: ColdSync.FULL, whenFull: 'refuse', maxAge: 30 * HOUR });
+  const store = new Store<Text156>({ record: 'text156', cold });
+  const found: Text156Array = await cold.read(store, { box: [0, 0, 1, 1] });
+  cold.visitSync(({ text }) => text.length < 10, store.snapshot(), { filter: (record) => record.text !== '' });
+  // @ts-expect-error the records of the store are those of the tier
+  await cold.count(new Store<Point32>());
+  // @ts-expect-error functions are called by Sync calls only
+  await cold.count(store, { filter: () => true });
+  cold.sweep(new Date());
+  return found.length + cold.stats.received;
+}
+
 export function statusOf(error: unknown): string | undefined {
   return error instanceof LocusError && error.status === Status.STATE ? error.code : undefined;
 }
 
-export default [voxels, streams];
+export default [voxels, streams, tiers];
