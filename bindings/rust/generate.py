@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Write the declarations of locus-sys from the public headers: locus-sys/src/*.rs and locus-sys/examples/layout.rs.
+"""Write the declarations of locus-sys from the public headers: locus-sys/src/*.rs and locus-sys/examples/layout.rs, as rustfmt has them.
 
 generate.py [--check]    --check writes nothing and fails where a file is not what the headers say
 """
 
 import os
 import re
+import shutil
+import subprocess
 import sys
 from typing import Any
 
@@ -73,25 +75,73 @@ def struct(name: str, fields: list[dict[str, Any]], packed: dict[str, int], call
     return [*lines, "}", f"zeroed!({name});", ""]
 
 
-def library(interface: dict[str, Any]) -> str:
-    """lib.rs: every type, and the functions of liblocus; those of liblocus_io are another library's."""
-    with open(os.path.join(ROOT, "src", "liblocus.map"), encoding="utf-8") as file:
-        exported = set(re.findall(r"^ *(locus_\w+);", file.read(), flags=re.M))
+def exported(version_script: str) -> set[str]:
+    with open(os.path.join(ROOT, "src", version_script), encoding="utf-8") as file:
+        return set(re.findall(r"^ *(locus_\w+);", file.read(), flags=re.M))
+
+
+def bound(interface: dict[str, Any], version_script: str) -> dict[str, Any]:
+    names = exported(version_script)
+    return {name: one for name, one in interface["functions"].items() if name in names}
+
+
+LIBRARY = """//! The C interface of liblocus as its headers declare it; they tell what everything means.
+#![no_std]
+#![allow(non_camel_case_types)]
+extern crate std;
+#[cfg(feature = "cold")]
+mod cold;
+mod constants;
+mod functions;
+mod structs;
+#[cfg(feature = "cold")]
+pub use cold::*;
+pub use constants::*;
+pub use functions::*;
+pub use structs::*;
+"""
+
+STRUCTS = """//! The types, those of liblocus_io and liblocus_cold too.
+use std::os::raw::{c_char, c_void};
+
+macro_rules! zeroed {
+    ($name:ident) => {
+        impl Default for $name {
+            /// All zero.
+            fn default() -> Self {
+                // SAFETY: numbers, pointers and optional functions, for which zero is a value.
+                unsafe { core::mem::zeroed() }
+            }
+        }
+    };
+}
+
+pub type locus_status = i32;
+"""
+
+
+def types(interface: dict[str, Any], functions: dict[str, Any]) -> str:
     structs, callbacks = interface["structs"], interface["callbacks"]
-    lines = [HEADER + "//! The C interface of liblocus as its headers declare it; they tell what everything means."]
-    lines += ["#![no_std]", "#![allow(non_camel_case_types)]", "extern crate std;", "use std::os::raw::{c_char, c_void};", "mod constants;", "pub use constants::*;", ""]
-    lines += ["macro_rules! zeroed {", "    ($name:ident) => {", "        impl Default for $name {", "            /// All zero."]
-    lines += ["            fn default() -> Self {", "                // SAFETY: numbers, pointers and optional functions, for which zero is a value."]
-    lines += ["                unsafe { core::mem::zeroed() }", "            }", "        }", "    };", "}", "", "pub type locus_status = i32;", ""]
-    functions = {name: one for name, one in interface["functions"].items() if name in exported}
+    lines = [HEADER + STRUCTS]
     words = set(re.findall(r"\blocus_\w+", " ".join(str(one) for one in functions.values()) + str(structs) + str(callbacks)))
     for name in sorted(words - set(structs) - set(callbacks) - set(functions) - {"locus_status"}):
         lines += ["#[repr(C)]", f"pub struct {name} {{", "    _opaque: [u8; 0],", "    _marker: core::marker::PhantomData<(*mut u8, core::marker::PhantomPinned)>,", "}", ""]
     lines += [f"pub type {name} = Option<unsafe extern \"C\" fn{signature(one)}>;" for name, one in callbacks.items()] + [""]
     for name, fields in structs.items():
         lines += struct(name, fields, interface["packed"], callbacks)
-    lines += ["extern \"C\" {"] + [f"    pub fn {name}{signature(one)};" for name, one in functions.items()] + ["}"]
     return "\n".join(lines) + "\n"
+
+
+def functions_of(functions: dict[str, Any], library: str) -> str:
+    imports = ["use crate::structs::*;", "use std::os::raw::{c_char, c_void};", ""]
+    declared = [f"pub fn {name}{signature(one)};" for name, one in functions.items()]
+    return "\n".join([HEADER + f"//! The functions of {library}.", *imports, 'extern "C" {', *declared, "}"]) + "\n"
+
+
+def formatted(text: str, rustfmt: str) -> str:
+    """As rustfmt has it."""
+    command = [rustfmt, "--edition", "2021", "--config-path", HERE, "--emit", "stdout"]
+    return subprocess.run(command, input=text, check=True, capture_output=True, text=True).stdout
 
 
 def constants(interface: dict[str, Any]) -> str:
@@ -112,12 +162,21 @@ def layout(interface: dict[str, Any]) -> str:
 
 
 def main() -> int:
+    rustfmt = shutil.which("rustfmt")
+    if rustfmt is None:
+        print("generate.py: needs rustfmt, which is not there")
+        return 0 if "--check" in sys.argv else 1
     interface = interface_of(os.path.join(ROOT, "include"))
-    return keep(HERE, {
-        "locus-sys/src/lib.rs": library(interface),
+    core, cold = bound(interface, "liblocus.map"), bound(interface, "liblocus_cold.map")
+    files = {
+        "locus-sys/src/lib.rs": HEADER + LIBRARY,
+        "locus-sys/src/structs.rs": types(interface, {**core, **cold}),
+        "locus-sys/src/functions.rs": functions_of(core, "liblocus"),
+        "locus-sys/src/cold.rs": functions_of(cold, "liblocus_cold"),
         "locus-sys/src/constants.rs": constants(interface),
         "locus-sys/examples/layout.rs": layout(interface),
-    })
+    }
+    return keep(HERE, {name: formatted(text, rustfmt) for name, text in files.items()})
 
 
 if __name__ == "__main__":

@@ -29,7 +29,7 @@ tutorial-python: $(SHARED_locus) $(SHARED_locus_io) $(HEAD_CT) | $(call needs,bi
 	@env $(PYTHON_HERE) PYTHONPATH=bindings/python $(PYTHON) bindings/python/tutorial/tutorial.py $(HEAD_CT) build/tutorial
 
 # The Rust crates: tests, doctests, layout of structs, the tour.
-bindings-rust: $(SHARED_locus) | $(call needs,test)
+bindings-rust: $(SHARED_locus) $(SHARED_locus_cold) | $(call needs,test)
 	@if command -v cargo >/dev/null; \
 	then $(STAGE:@%=%) $(FLAVOUR)$@ tests/bindings/rust.sh $(abspath $(dir $(SHARED_locus))) $(abspath $(OUT))/rust; \
 	else echo "bindings-rust: skipped, there is no cargo"; fi

@@ -1,10 +1,13 @@
-//! Finds liblocus: in the folder LOCUS_LIB_DIR, else where pkg-config says, else where the linker looks.
+//! Finds liblocus, and liblocus_cold for the feature `cold`: in the folder LOCUS_LIB_DIR, else where pkg-config says, else where the linker looks.
 use std::env;
 use std::process::Command;
 
 fn main() {
     println!("cargo:rerun-if-env-changed=LOCUS_LIB_DIR");
     println!("cargo:rerun-if-env-changed=PKG_CONFIG_PATH");
+    if env::var_os("CARGO_FEATURE_COLD").is_some() {
+        println!("cargo:rustc-link-lib=dylib=locus_cold");
+    }
     println!("cargo:rustc-link-lib=dylib=locus");
     if let Ok(folder) = env::var("LOCUS_LIB_DIR") {
         println!("cargo:rustc-link-search=native={folder}");

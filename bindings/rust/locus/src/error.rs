@@ -1,6 +1,7 @@
 use crate::sys;
 use std::ffi::CStr;
 use std::fmt;
+use std::os::raw::c_char;
 
 /// A failed call: its status, with the library's text, which names the function, the argument and the offending value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -105,7 +106,7 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 /// A text of the library that is static.
-unsafe fn text(pointer: *const std::os::raw::c_char) -> &'static str {
+unsafe fn text(pointer: *const c_char) -> &'static str {
     CStr::from_ptr(pointer).to_str().unwrap_or("")
 }
 
@@ -121,19 +122,33 @@ pub fn version_text() -> &'static str {
     unsafe { text(sys::locus_version_text()) }
 }
 
-/// What a call came to; a panic of its callbacks goes on from here.
+/// What a call of liblocus came to; a panic of its callbacks goes on from here.
 pub(crate) fn check(status: sys::locus_status) -> Result<()> {
+    // SAFETY: the text stays valid until this thread's next failed call.
+    settle(status, || unsafe { sys::locus_last_error() })
+}
+
+/// The same of a library that keeps its texts apart.
+pub(crate) fn settle(status: sys::locus_status, last_error: impl FnOnce() -> *const c_char) -> Result<()> {
     crate::callback::resume();
     if status == sys::LOCUS_OK {
         return Ok(());
     }
-    // SAFETY: the text stays valid until this thread's next failed call.
-    let text = unsafe { CStr::from_ptr(sys::locus_last_error()) }.to_string_lossy().into_owned();
+    // SAFETY: the text is this thread's and has not changed since the call.
+    let text = unsafe { CStr::from_ptr(last_error()) }.to_string_lossy().into_owned();
     Err(Error::new(status, text))
 }
 
 /// A list whose length the library tells: asked for without room first, then with what it needs.
-pub(crate) fn listed<T: Clone + Default>(mut fill: impl FnMut(*mut T, usize, *mut usize) -> i32) -> Result<Vec<T>> {
+pub(crate) fn listed<T: Clone + Default>(fill: impl FnMut(*mut T, usize, *mut usize) -> i32) -> Result<Vec<T>> {
+    listed_by(check, fill)
+}
+
+/// The same of a library that keeps its texts apart.
+pub(crate) fn listed_by<T: Clone + Default>(
+    check: fn(sys::locus_status) -> Result<()>,
+    mut fill: impl FnMut(*mut T, usize, *mut usize) -> i32,
+) -> Result<Vec<T>> {
     let mut count = 0;
     let mut status = fill(std::ptr::null_mut(), 0, &mut count);
     let mut list = Vec::new();

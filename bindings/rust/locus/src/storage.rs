@@ -54,7 +54,7 @@ impl LogOptions {
     }
 }
 
-fn text(path: &Path) -> Result<CString> {
+pub(crate) fn path_text(path: &Path) -> Result<CString> {
     CString::new(path.as_os_str().as_bytes()).map_err(|_| Error::Argument(format!("the path {path:?} holds a NUL")))
 }
 
@@ -88,7 +88,7 @@ fn with_progress(
 impl<R: Record> Store<R> {
     /// Save the store, or a snapshot of it, as a file, atomically.
     pub fn save(&self, path: impl AsRef<Path>, snapshot: Option<&Snapshot>, progress: impl FnMut(f64) -> bool) -> Result<()> {
-        let (gate, path) = (self.outside()?, text(path.as_ref())?);
+        let (gate, path) = (self.outside()?, path_text(path.as_ref())?);
         let moment = snapshot.map_or(std::ptr::null(), Snapshot::raw);
         // SAFETY: path and closure outlive the call.
         check(with_progress(gate, progress, |at, user| unsafe {
@@ -98,7 +98,7 @@ impl<R: Record> Store<R> {
 
     /// Make a store from a saved file.
     pub fn load(path: impl AsRef<Path>, options: StoreOptions<R>, progress: impl FnMut(f64) -> bool) -> Result<Self> {
-        let path = text(path.as_ref())?;
+        let path = path_text(path.as_ref())?;
         // SAFETY: path and closure outlive the call.
         Self::make(options, |gate, plain, made| {
             with_progress(gate, progress, |at, user| unsafe { sys::locus_pmq_load(path.as_ptr(), plain, at, user, made) })
@@ -112,7 +112,7 @@ impl<R: Record> Store<R> {
         log: &LogOptions,
         progress: impl FnMut(f64) -> bool,
     ) -> Result<(Self, Recovery)> {
-        let folder = text(folder.as_ref())?;
+        let folder = path_text(folder.as_ref())?;
         let mut recovery = sized!(locus_pmq_recovery);
         // SAFETY: folder and closure outlive the call.
         let store = Self::make(options, |gate, plain, made| {
@@ -125,7 +125,7 @@ impl<R: Record> Store<R> {
 
     /// Give a store that has no log a folder that has no store.
     pub fn attach(&self, folder: impl AsRef<Path>, log: &LogOptions, progress: impl FnMut(f64) -> bool) -> Result<()> {
-        let (gate, folder) = (self.outside()?, text(folder.as_ref())?);
+        let (gate, folder) = (self.outside()?, path_text(folder.as_ref())?);
         // SAFETY: folder and closure outlive the call.
         check(with_progress(gate, progress, |at, user| unsafe {
             sys::locus_pmq_attach(self.raw(), folder.as_ptr(), &log.plain, at, user)
@@ -158,7 +158,7 @@ impl<R: Record> Store<R> {
 
 /// Read a saved file's header.
 pub fn file_info(path: impl AsRef<Path>) -> Result<FileInfo> {
-    let path = text(path.as_ref())?;
+    let path = path_text(path.as_ref())?;
     let mut info = sized!(locus_pmq_file_info);
     // SAFETY: the path outlives the call.
     check(unsafe { sys::locus_pmq_get_file_info(path.as_ptr(), &mut info) })?;

@@ -58,13 +58,14 @@ pub struct StoreOptions<R: Record = Point32> {
     remove: Option<Decide<R>>,
     sink: Option<Decide<R>>,
     log: Option<Log>,
+    pub(crate) tier: Option<Arc<dyn Tier>>,
 }
 
 impl<R: Record> Default for StoreOptions<R> {
     fn default() -> Self {
         let mut plain = defaults!(locus_pmq_options, locus_pmq_options_init);
         plain.record = R::KIND;
-        Self { plain, remove: None, sink: None, log: None }
+        Self { plain, remove: None, sink: None, log: None, tier: None }
     }
 }
 
@@ -119,12 +120,39 @@ impl<R: Record> StoreOptions<R> {
     }
 }
 
+/// What takes over, instead of a sink, the records that left: the cold tier.
+pub(crate) trait Tier: Send + Sync {
+    /// Be the sink of the options, of one store at a time.
+    fn attach(&self, options: &mut sys::locus_pmq_options) -> Result<()>;
+    /// The store has ended.
+    fn detach(&self);
+    /// Refuse what must not be called from within a callback of the tier.
+    fn outside(&self) -> Result<()>;
+}
+
+/// A tier that a store is attached to: it ends behind the store.
+pub(crate) struct Attached(Arc<dyn Tier>);
+
+impl Attached {
+    fn new(tier: Arc<dyn Tier>, options: &mut sys::locus_pmq_options) -> Result<Self> {
+        tier.attach(options)?;
+        Ok(Self(tier))
+    }
+}
+
+impl Drop for Attached {
+    fn drop(&mut self) {
+        self.0.detach();
+    }
+}
+
 /// What a store shares with its alerts, which may outlive it.
 pub(crate) struct Shared<R> {
     pub(crate) gate: Gate,
     remove: Option<Mutex<Decide<R>>>,
     sink: Option<Mutex<Decide<R>>>,
     logger: Option<Logger>,
+    tier: Option<Weak<dyn Tier>>,
     writer: Mutex<Writer>,
     left: Condvar,
 }
@@ -178,9 +206,18 @@ impl<R: Record> Shared<R> {
         drop(Writing(self));
     }
 
+    /// Refuse what only the callbacks of alerts may call.
+    fn gate(&self) -> Result<&Gate> {
+        if let Some(tier) = self.tier.as_ref().and_then(Weak::upgrade) {
+            tier.outside()?;
+        }
+        self.gate.outside("store")?;
+        Ok(&self.gate)
+    }
+
     /// Refuse what must not be called from within a callback.
     fn outside(&self) -> Result<()> {
-        self.gate.outside("store")?;
+        self.gate()?;
         if matches!(self.writer().inside, Some((thread, _)) if thread == current().id()) {
             return Err(Error::Busy("the store is at work, and this is its callback".into()));
         }
@@ -279,6 +316,7 @@ impl Drop for Snapshot {
 pub struct Store<R: Record = Point32> {
     handle: NonNull<sys::locus_pmq>,
     shared: Arc<Shared<R>>,
+    attached: Option<Attached>,
 }
 
 // SAFETY: the library lets one thread in that changes the store beside any number that ask; closures are Send, and
@@ -297,12 +335,13 @@ impl<R: Record> Store<R> {
         options: StoreOptions<R>,
         create: impl FnOnce(&Gate, *const sys::locus_pmq_options, *mut *mut sys::locus_pmq) -> i32,
     ) -> Result<Self> {
-        let StoreOptions { mut plain, remove, sink, log } = options;
+        let StoreOptions { mut plain, remove, sink, log, tier } = options;
         let shared = Arc::new_cyclic(|owner: &Weak<Shared<R>>| Shared {
             gate: Gate::default(),
             remove: remove.map(Mutex::new),
             sink: sink.map(Mutex::new),
             logger: log.map(|log| Logger { log, owner: owner.clone() }),
+            tier: tier.as_ref().map(Arc::downgrade),
             writer: Mutex::default(),
             left: Condvar::new(),
         });
@@ -319,9 +358,10 @@ impl<R: Record> Store<R> {
             plain.log = Some(log_at);
             plain.log_user = logger as *const Logger as *mut c_void;
         }
+        let attached = tier.map(|tier| Attached::new(tier, &mut plain)).transpose()?;
         let mut made = null_mut();
         let status = create(&shared.gate, &plain, &mut made);
-        let store = NonNull::new(made).map(|handle| Self { handle, shared: shared.clone() });
+        let store = NonNull::new(made).map(|handle| Self { handle, shared: shared.clone(), attached });
         check(status)?;
         store.ok_or_else(|| Error::Internal("the store was not made".into()))
     }
@@ -342,8 +382,13 @@ impl<R: Record> Store<R> {
 
     /// A call that asks, which callbacks of alerts may do.
     fn gate(&self) -> Result<&Gate> {
-        self.shared.gate.outside("store")?;
-        Ok(&self.shared.gate)
+        self.shared.gate()
+    }
+
+    /// Is it this tier that takes over what leaves the store?
+    #[cfg(feature = "cold")]
+    pub(crate) fn attached_to(&self, tier: *const ()) -> bool {
+        matches!(&self.attached, Some(Attached(own)) if Arc::as_ptr(own) as *const () == tier)
     }
 
     fn ask(
@@ -527,34 +572,37 @@ impl<R: Record> Store<R> {
 impl<R: Record> Drop for Store<R> {
     fn drop(&mut self) {
         // Alerts may end on another thread meanwhile.
-        self.shared.end(Box::new(Ended(self.handle)));
+        self.shared.end(Box::new(Ended { handle: self.handle, _attached: self.attached.take() }));
     }
 }
 
-struct Ended(NonNull<sys::locus_pmq>);
+struct Ended {
+    handle: NonNull<sys::locus_pmq>,
+    _attached: Option<Attached>, // goes behind the store
+}
 // SAFETY: any thread may end a store.
 unsafe impl Send for Ended {}
 impl Drop for Ended {
     fn drop(&mut self) {
         // SAFETY: the handle is this object's alone.
-        unsafe { sys::locus_pmq_destroy(self.0.as_ptr()) }
+        unsafe { sys::locus_pmq_destroy(self.handle.as_ptr()) }
     }
 }
 
 /// A closure that is shown records during one call.
-struct Call<'c, R, T> {
-    gate: &'c Gate,
-    closure: &'c mut dyn FnMut(&R) -> T,
-    otherwise: T,
+pub(crate) struct Call<'c, R, T> {
+    pub(crate) gate: &'c Gate,
+    pub(crate) closure: &'c mut dyn FnMut(&R) -> T,
+    pub(crate) otherwise: T,
 }
 
 impl<R, T> Call<'_, R, T> {
-    fn user(&mut self) -> *mut c_void {
+    pub(crate) fn user(&mut self) -> *mut c_void {
         self as *mut Self as *mut c_void
     }
 }
 
-unsafe extern "C" fn call_at<R: Record, T: Copy>(record: *const c_void, user: *mut c_void) -> T {
+pub(crate) unsafe extern "C" fn call_at<R: Record, T: Copy>(record: *const c_void, user: *mut c_void) -> T {
     let call = &mut *(user as *mut Call<'_, R, T>);
     let closure = &mut call.closure;
     guard(call.gate, call.otherwise, || closure(&*(record as *const R)))
