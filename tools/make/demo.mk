@@ -4,7 +4,7 @@ EXAMPLE_COMMON := $(patsubst %,$(OUT)/%.o,$(wildcard examples/common/*.cpp))
 # private: not for the libraries, which the programs have as prerequisites.
 $(OUT)/examples/%: private CPPFLAGS_ALL := -Iinclude -Iexamples $(CPPFLAGS)
 # g++ 12 sees overlapping copies in joined strings where there are none (its bug 105651).
-$(OUT)/examples/%: private EXTRA_CXXFLAGS += $(if $(findstring clang,$(CXX)),,-Wno-restrict)
+$(OUT)/examples/%: private EXTRA_CXXFLAGS += $(if $(findstring clang,$(CXX)),,-Wno-restrict) $(QUICKLY)
 
 # $(eval $(call example,NAME,LIBS)): $(OUT)/bin/NAME from examples/NAME/*.cpp and what the examples share; LIBS: more it needs.
 define example
@@ -41,11 +41,8 @@ $(EXAMPLE_explorer): $(SHARED_locus_cold)
 $(OBJECTS_example_explorer): | $(call needs,explorer)
 HTTPLIB_OBJECTS := $(patsubst %,$(OUT)/examples/explorer/%.cpp.o,server connection)
 $(HTTPLIB_OBJECTS): private CPPFLAGS_ALL += $(addprefix -DCPPHTTPLIB_,$(addsuffix _SUPPORT,OPENSSL ZLIB BROTLI))
-.PHONY: explorer explorer-program test-explorer check-explorer
+.PHONY: explorer explorer-program check-explorer
 explorer-program: $(EXAMPLE_explorer)
-test-explorer: $(EXAMPLE_explorer) | $(call needs,test)
-	$(STAGE) $(FLAVOUR)$@ /usr/bin/python3 tests/examples/explorer.py --quick $(abspath $<)
-test: test-explorer
 check-explorer: $(EXAMPLE_explorer) | $(call needs,test)
 	$(STAGE) $(FLAVOUR)$@ /usr/bin/python3 tests/examples/explorer.py $(abspath $<)
 check: check-explorer

@@ -13,7 +13,7 @@ UNIT_AREAS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/unit/*/*.cp
 UNIT_OBJECTS := $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/*/*.cpp))
 $(UNIT_OBJECTS): EXTRA_CPPFLAGS += -I.
 # With clang -Wconversion means signs too, which would only clutter the tests with casts.
-$(UNIT_OBJECTS): EXTRA_CXXFLAGS += -Wno-sign-conversion
+$(UNIT_OBJECTS): EXTRA_CXXFLAGS += -Wno-sign-conversion $(QUICKLY)
 $(UNIT_OBJECTS): | $(call needs,test)
 
 define unit_program
