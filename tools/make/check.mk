@@ -1,6 +1,6 @@
 # The long tier: everything `make check` runs beside `make test`. Other flags are other makes with folders of their own; what the quick tier
 # has built is used where the flags are the same.
-CHECKS := check-address check-thread check-scalar check-fuzz check-deb check-format
+CHECKS := check-address check-thread check-scalar check-memcheck check-fuzz check-deb check-format
 .PHONY: check $(CHECKS)
 check: $(CHECKS) ## the long tests: sanitizers, clang, SIMD=scalar, fuzzing, the form of the sources, the Debian package
 	@echo "make check: all passed"
@@ -17,6 +17,10 @@ check-thread: | $(call needs,test)
 	@+GTEST_FILTER='-$(ONE_THREADED)' $(MAKE) --no-print-directory SANITIZE=thread SIMD=scalar $(THREADED)
 check-scalar: | $(call needs,test)
 	@+$(MAKE) --no-print-directory SIMD=scalar unit api
+
+# Valgrind over more of the unit tests than the quick tier runs.
+check-memcheck: | $(call needs,test)
+	@+$(MAKE) --no-print-directory MEMCHECK_MS=1600 $(MEMCHECK_UNIT)
 
 # Fuzzing: every tests/fuzz/NAME.cpp is a libFuzzer program over the static libraries; it runs FUZZ_RUNS inputs from a fixed seed,
 # starting with those in tests/fuzz/corpus/NAME if there is such a folder. FUZZ_RUNS_NAME and FUZZ_FLAGS_NAME are its own.
