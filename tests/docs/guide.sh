@@ -12,8 +12,9 @@ for page in docs/guide/*.md; do
     name=$(basename "$page" .md)
     blocks c "$page" >"$folder/$name.c"
     if [ -s "$folder/$name.c" ]; then
-        cc -std=c99 -pedantic -Wall -Wextra -Werror -Iinclude "$folder/$name.c" -L"$library" -llocus -lm -Wl,-rpath,"$PWD/$library" -o "$folder/$name"
-        "$folder/$name" >"$folder/printed"
+        cc -std=c99 -pedantic -Wall -Wextra -Werror -Iinclude "$folder/$name.c" -L"$library" \
+            -Wl,--as-needed -llocus_cold -llocus -lm -Wl,-rpath,"$PWD/$library" -o "$folder/$name"
+        (cd "$folder" && "./$name") >"$folder/printed"
         blocks text "$page" | diff - "$folder/printed" || { echo "$page: prints something else"; failed=1; }
         echo "$page: $(wc -l <"$folder/printed") lines printed"
     fi

@@ -1,6 +1,6 @@
 # The documentation: the guide, whose programs are tests, and the reference made from the headers.
 .PHONY: guide docs
-guide: $(SHARED_locus) | $(call needs,test) ## compile and run the programs of docs/guide
+guide: $(SHARED_locus) $(SHARED_locus_cold) | $(call needs,test) ## compile and run the programs of docs/guide
 	$(STAGE) $(FLAVOUR)$@ tests/docs/guide.sh $(OUT)
 test: guide
 
