@@ -2,7 +2,7 @@
  *
  * Distances are lengths of shortest paths along the graph's edges, from a seed's starting distance on. Ties go to the
  * seed that was added earlier. Results are exact in the graph's integer weights and the same from every engine.
- * Method: multi-source Dijkstra, thesis section 2.2.2 (Erwig 2000) and 2.4. */
+ * Method: multi-source Dijkstra, thesis 2.2.2 (Erwig 2000), 2.4. Threads: const calls beside each other. */
 #ifndef LOCUS_DIAGRAM_H
 #define LOCUS_DIAGRAM_H
 

@@ -151,7 +151,7 @@ LOCUS_API locus_status locus_graph_get_info(const locus_graph *graph, locus_grap
 LOCUS_API locus_status locus_graph_set_box(locus_graph *graph, const locus_voxel_box *box,
                                            const float *values) LOCUS_NOEXCEPT;
 
-/* The same with one value for the whole box: NaN removes the material (a cut), a number fills it. Since 0.1. */
+/* The same with one value for the box: NaN removes (a cut), a number fills. Errors and threads as above. Since 0.1. */
 LOCUS_API locus_status locus_graph_fill_box(locus_graph *graph, const locus_voxel_box *box, float value) LOCUS_NOEXCEPT;
 
 /* Replace the materials of `count` voxels given by their indices x + nx * (y + ny * z); `values` holds as many numbers.

@@ -358,8 +358,8 @@ LOCUS_API locus_status locus_pmq_score_init(locus_pmq_score *score, size_t size)
 LOCUS_API locus_status locus_pmq_topk(const locus_pmq *pmq, const locus_pmq_score *score, const locus_pmq_query *query,
                                       size_t k, void *records, double *scores, size_t *count) LOCUS_NOEXCEPT;
 
-/* The same for the k records nearest to a place, at any distance and age; `distances` (may be NULL) in metres. Since
- * 0.1. */
+/* The same for the k records nearest to a place, at any distance and age; `distances` (may be NULL) in metres.
+ * Errors and threads as above. Since 0.1. */
 LOCUS_API locus_status locus_pmq_nearest(const locus_pmq *pmq, double latitude, double longitude,
                                          const locus_pmq_query *query, size_t k, void *records, double *distances,
                                          size_t *count) LOCUS_NOEXCEPT;

@@ -79,7 +79,7 @@ LOCUS_API locus_status locus_records_open(const char *path, const locus_records_
                                           locus_records **reader) LOCUS_NOEXCEPT;
 
 /* The same from an open descriptor, such as 0 for standard input, which stays the caller's to close and must stay open
- * as long as the reader. `name` stands for it in error texts. Since 0.1. */
+ * as long as the reader. `name` stands for it in error texts. Errors and threads as above. Since 0.1. */
 LOCUS_API locus_status locus_records_open_fd(int32_t fd, const char *name, const locus_records_options *options,
                                              locus_records **reader) LOCUS_NOEXCEPT;
 
@@ -95,7 +95,7 @@ LOCUS_API void locus_records_close(locus_records *reader) LOCUS_NOEXCEPT;
 LOCUS_API locus_status locus_records_next(locus_records *reader, void *records, size_t capacity,
                                           size_t *count) LOCUS_NOEXCEPT;
 
-/* Store how far the reader is; set stats->struct_size first. Errors: LOCUS_E_ARGUMENT. Since 0.1. */
+/* Store how far the reader is; set stats->struct_size first. Errors: LOCUS_E_ARGUMENT. Not beside _next. Since 0.1. */
 LOCUS_API locus_status locus_records_get_stats(const locus_records *reader, locus_records_stats *stats) LOCUS_NOEXCEPT;
 
 #ifdef __cplusplus

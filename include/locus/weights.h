@@ -54,8 +54,8 @@ LOCUS_API locus_status locus_weights_options_init(locus_weights_options *options
 LOCUS_API locus_status locus_weights_create(locus_diagram *diagram, const locus_weights_options *options,
                                             const locus_voxel_box *box, locus_weights **weights) LOCUS_NOEXCEPT;
 
-/* The same for a list of voxels given by their indices x + nx * (y + ny * z); one row each, in the list's order. Since
- * 0.1. */
+/* The same for a list of voxels given by their indices x + nx * (y + ny * z); one row each, in the list's order.
+ * Errors and threads as above. Since 0.1. */
 LOCUS_API locus_status locus_weights_create_for(locus_diagram *diagram, const locus_weights_options *options,
                                                 const uint64_t *voxels, size_t count,
                                                 locus_weights **weights) LOCUS_NOEXCEPT;

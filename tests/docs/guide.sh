@@ -1,6 +1,6 @@
 #!/bin/bash
 # The programs of the guide: tests/docs/guide.sh FOLDER_OF_THE_LIBRARY. The C blocks of a page, joined in their order, compile as C99 and
-# print what its text blocks say. Links between pages lead somewhere.
+# print what its text blocks say. Links between pages lead somewhere, and measurements are those of docs/benchmarks.md.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 library=$1
@@ -22,4 +22,8 @@ for page in docs/guide/*.md; do
         [ -e "docs/guide/$link" ] || { echo "$page: no such file: $link"; failed=1; }
     done
 done
+# Rows of measurements are those of docs/benchmarks.md.
+while IFS= read -r row; do
+    grep -qxF -- "$row" docs/benchmarks.md || { echo "docs/guide/performance.md: not in docs/benchmarks.md: $row"; failed=1; }
+done < <(grep -E '^\| `[a-z]+\.' docs/guide/performance.md)
 exit $failed

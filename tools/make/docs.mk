@@ -1,7 +1,7 @@
 # The documentation: the guide, whose programs are tests, and the reference made from the headers.
 .PHONY: guide docs
-guide: $(SHARED_locus) $(SHARED_locus_cold) | $(call needs,test) ## compile and run the programs of docs/guide
-	$(STAGE) $(FLAVOUR)$@ tests/docs/guide.sh $(OUT)
+guide: $(SHARED_locus) $(SHARED_locus_cold) | $(call needs,test) ## compile and run the programs of docs/guide; each function has its documentation
+	$(STAGE) $(FLAVOUR)$@ sh -c 'tests/docs/reference.py && tests/docs/guide.sh $(OUT)'
 test: guide
 
 # doxygen warns of nothing, or this fails.
