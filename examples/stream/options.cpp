@@ -38,13 +38,15 @@ void add_window(CLI::App &app, Options &options) {
     app.add_option("--speed", options.speed, "Times real time; 0: as fast as it goes")
         ->check(CLI::NonNegativeNumber)
         ->group(group);
-    add_choice<StoreLayout>(
-        app, "--layout", options.layout,
-        {{"default", StoreLayout::usual},
-         {"ring", StoreLayout::ring_leaves},
-         {"array", StoreLayout::packed_array},
-         {"array-explicit", StoreLayout::packed_array_explicit}},
-        "Layout of the store: ring leaves, the thesis' packed array, or that with its explicit index", group);
+    add_choice<StoreLayout>(app, "--layout", options.layout,
+                            {{"default", StoreLayout::usual},
+                             {"ring", StoreLayout::ring_leaves},
+                             {"array", StoreLayout::packed_array},
+                             {"array-explicit", StoreLayout::packed_array_explicit},
+                             {"array-heads", StoreLayout::packed_array_heads}},
+                            "Layout of the store: ring leaves, the thesis' packed array, that with its explicit index, "
+                            "or one with keys apart",
+                            group);
 }
 
 void add_results(CLI::App &app, Options &options) {

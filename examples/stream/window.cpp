@@ -27,10 +27,14 @@ Window::Window(int64_t horizon, StoreLayout layout, const std::string &folder)
     options_.record = LOCUS_RECORD_TEXT156;
     if (layout == StoreLayout::ring_leaves)
         options_.layout = LOCUS_LAYOUT_RING_LEAVES;
-    if (layout == StoreLayout::packed_array || layout == StoreLayout::packed_array_explicit)
+    if (layout != StoreLayout::ring_leaves && layout != StoreLayout::usual)
         options_.layout = LOCUS_LAYOUT_PACKED_ARRAY;
     if (layout == StoreLayout::packed_array_explicit)
         options_.index = LOCUS_INDEX_EXPLICIT;
+    if (layout == StoreLayout::packed_array_heads) {
+        options_.index = LOCUS_INDEX_HEADS;
+        options_.segment_slots = 64;
+    }
     options_.future = LOCUS_FUTURE_CLAMP;
     options_.horizon = horizon;
     if (!folder_.empty()) {

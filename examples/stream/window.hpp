@@ -12,7 +12,7 @@
 
 namespace demo {
 
-enum class StoreLayout { usual, ring_leaves, packed_array, packed_array_explicit };
+enum class StoreLayout { usual, ring_leaves, packed_array, packed_array_explicit, packed_array_heads };
 
 struct Latencies {
     double mean = 0, middle = 0, p99 = 0, longest = 0; // seconds per batch

@@ -54,9 +54,11 @@ typedef struct locus_text156 {
 #define LOCUS_LAYOUT_RING_LEAVES 0  /* leaves along the Z-curve, each a ring in order of arrival: no long pauses */
 #define LOCUS_LAYOUT_PACKED_ARRAY 1 /* the thesis' packed-memory array, sections 3.2 and 3.4 */
 
-/* How the packed array finds the records of a quadrant. */
+/* How the packed array finds the records of a quadrant. With LOCUS_INDEX_HEADS keys lie apart from the records;
+ * segments of 64 slots suit it. */
 #define LOCUS_INDEX_IMPLICIT 0 /* binary search on key prefixes over the segments, section 3.4.2 */
 #define LOCUS_INDEX_EXPLICIT 1 /* a pointer quadtree whose nodes hold first and last segment, section 3.4.3 */
+#define LOCUS_INDEX_HEADS 2    /* a tree of samples over the segments' first keys: fastest, not in the thesis */
 
 /* What to do with a batch that holds a time after `now`. */
 #define LOCUS_FUTURE_REFUSE 0 /* LOCUS_E_ARGUMENT names the first such record; nothing of the batch is stored */

@@ -35,9 +35,19 @@ Densities densities_of(const locus_pmq_options &o) noexcept {
     return {o.segment_slots, o.rho_leaf, o.tau_leaf, o.rho_root, o.tau_root};
 }
 
+PackedIndex index_of(const locus_pmq_options &o) noexcept {
+    switch (o.index) {
+    case LOCUS_INDEX_EXPLICIT:
+        return PackedIndex::quadtree;
+    case LOCUS_INDEX_HEADS:
+        return PackedIndex::heads;
+    default:
+        return PackedIndex::implicit;
+    }
+}
+
 void check_packed_array(const locus_pmq_options &o) {
-    require(o.index == LOCUS_INDEX_IMPLICIT || o.index == LOCUS_INDEX_EXPLICIT, "options.index is ", o.index,
-            ", not a LOCUS_INDEX_");
+    require(o.index <= LOCUS_INDEX_HEADS, "options.index is ", o.index, ", not a LOCUS_INDEX_");
     require(std::has_single_bit(o.segment_slots) && o.segment_slots >= 4 && o.segment_slots <= 4096,
             "options.segment_slots is ", o.segment_slots, ", not a power of two in 4..4096");
     require(0 <= o.rho_leaf && o.rho_leaf < o.rho_root && o.rho_root < o.tau_root && o.tau_root < o.tau_leaf &&
@@ -48,7 +58,7 @@ void check_packed_array(const locus_pmq_options &o) {
             o.tau_root);
     if (o.layout != LOCUS_LAYOUT_PACKED_ARRAY)
         return;
-    const uint64_t smallest = PackedArray::smallest_bytes(record_format(o), densities_of(o));
+    const uint64_t smallest = PackedArray::smallest_bytes(record_format(o), densities_of(o), index_of(o));
     require(o.max_bytes >= smallest, "options.max_bytes is ", o.max_bytes,
             ", too little for one record with segments of ", o.segment_slots, " slots: at least ", smallest);
 }
@@ -77,8 +87,7 @@ std::unique_ptr<Layout> make_layout(const locus_pmq_options &options) {
     const Limits limits{options.max_records, options.max_bytes, options.snapshot_bytes};
     if (options.layout == LOCUS_LAYOUT_RING_LEAVES)
         return std::make_unique<RingLeaves>(record_format(options), limits);
-    return std::make_unique<PackedArray>(record_format(options), densities_of(options), limits,
-                                         options.index == LOCUS_INDEX_EXPLICIT);
+    return std::make_unique<PackedArray>(record_format(options), densities_of(options), limits, index_of(options));
 }
 
 } // namespace locus::pmq

@@ -208,6 +208,7 @@ int main(void) {
     voxels(LOCUS_ENGINE_RELAX);
     records(LOCUS_INDEX_IMPLICIT);
     records(LOCUS_INDEX_EXPLICIT);
+    records(LOCUS_INDEX_HEADS);
     CHECK(live == before);
     return check_result();
 }

@@ -573,6 +573,7 @@ int main(void) {
     bad_options();
     walk(LOCUS_INDEX_IMPLICIT);
     walk(LOCUS_INDEX_EXPLICIT);
+    walk(LOCUS_INDEX_HEADS);
     texts();
     logs();
     WORKS(locus_pmq_create(NULL, &pmq));

@@ -15,6 +15,7 @@ $(UNIT_OBJECTS): EXTRA_CPPFLAGS += -I.
 # With clang -Wconversion means signs too, which would only clutter the tests with casts.
 $(UNIT_OBJECTS): EXTRA_CXXFLAGS += -Wno-sign-conversion $(QUICKLY)
 $(UNIT_OBJECTS): | $(call needs,test)
+UNIT_LIBS_pmq := -Wl,--wrap=mmap
 
 define unit_program
 $(OUT)/tests/unit_$(1): $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/$(1)/*.cpp)) $(foreach name,$(LIBRARIES),$(STATIC_$(name)))

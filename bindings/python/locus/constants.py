@@ -63,6 +63,7 @@ class Index(IntEnum):
 
     IMPLICIT = 0
     EXPLICIT = 1
+    HEADS = 2
 
 
 class Future(IntEnum):

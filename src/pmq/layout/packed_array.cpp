@@ -12,25 +12,31 @@
 #include <limits>
 
 namespace locus::pmq {
+namespace {
+
+Keys keys_for(PackedIndex index) noexcept { return index == PackedIndex::heads ? Keys::apart : Keys::beside; }
+
+} // namespace
 
 PackedArray::PackedArray(const RecordFormat &format, const Densities &densities, const Limits &limits,
-                         bool explicit_index)
-    : format_(format), densities_(densities), limits_(limits), highest_(0), array_(format, densities, 0),
-      index_(explicit_index) {
+                         PackedIndex index)
+    : format_(format), densities_(densities), limits_(limits), keys_(keys_for(index)), highest_(0),
+      array_(format, densities, keys_, 0), index_(index == PackedIndex::quadtree) {
     const auto largest = static_cast<unsigned>(62 - std::countr_zero(densities.segment_slots));
-    const size_t most_segments = std::numeric_limits<size_t>::max() / (Slots::stride(format) * densities.segment_slots);
-    while (highest_ < largest && size_t{2} << highest_ <= most_segments &&
-           Segments::bytes(format, densities, highest_ + 1) <= limits.bytes)
+    const size_t most_segments =
+        std::numeric_limits<size_t>::max() / (2 * Slots::bytes(format, keys_) * densities.segment_slots);
+    while (highest_ < largest && size_t{2} << highest_ <= most_segments && bytes(highest_ + 1) <= limits.bytes)
         ++highest_;
-    if (explicit_index)
+    if (index_.wanted())
         index_.build(array_);
 }
 
-uint64_t PackedArray::smallest_bytes(const RecordFormat &format, const Densities &densities) noexcept {
+uint64_t PackedArray::smallest_bytes(const RecordFormat &format, const Densities &densities,
+                                     PackedIndex index) noexcept {
     unsigned height = 0;
     while (std::ldexp(densities.segment_slots * densities.tau_root, static_cast<int>(height)) < 1 && height < 40)
         ++height;
-    return Segments::bytes(format, densities, height);
+    return Segments::bytes(format, densities, keys_for(index), height);
 }
 
 std::vector<Incoming> PackedArray::sorted(const Batch &batch) const {
@@ -84,6 +90,7 @@ void PackedArray::update(const Change &change) {
     for (const Task &task : tasks_) {
         task.level == 0 ? rewrite_segment(task) : rebalance(task);
         array_.windows.recount(task.level, task.window);
+        array_.index_heads(task.window << task.level, size_t{1} << task.level);
     }
     repair_index();
 }
@@ -198,9 +205,10 @@ uint64_t PackedArray::root_least(unsigned height) const noexcept {
 }
 
 void PackedArray::rebuild(const Change &change, uint64_t records, unsigned height) {
-    Segments fresh(format_, densities_, height);
+    Segments fresh(format_, densities_, keys_, height);
     fresh.fill(0, fresh.count(), records, Merge(array_, 0, array_.count(), change.gone, change.incoming));
     fresh.windows.recount(height, 0);
+    fresh.index_heads(0, fresh.count());
     QuadtreeIndex index(index_.wanted());
     if (index.wanted())
         index.build(fresh);
@@ -219,7 +227,7 @@ void PackedArray::reserve_scratch(size_t records) {
     constexpr size_t kept = 4096; // beyond, memory is given back after use
     if (records > scratch_size_ || (scratch_size_ > kept && records <= kept)) {
         const size_t size = std::max(records, std::min(kept, std::bit_ceil(records)));
-        scratch_ = Slots(format_, size);
+        scratch_ = Slots(format_, size, keys_);
         scratch_size_ = size;
     }
 }
@@ -242,7 +250,7 @@ void PackedArray::repair_index() noexcept {
 }
 
 void PackedArray::bound_index() noexcept {
-    if (Segments::bytes(format_, densities_, array_.windows.height()) + index_.bytes() > limits_.bytes)
+    if (bytes(array_.windows.height()) + index_.bytes() > limits_.bytes)
         index_.drop();
 }
 

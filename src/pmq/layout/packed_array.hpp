@@ -1,5 +1,5 @@
 // The layout of the thesis: a packed-memory array with the implicit or the explicit quadtree index (sections 3.2
-// and 3.4).
+// and 3.4), or with keys apart from the records and a search index over the segments' heads.
 #pragma once
 
 #include "pmq/departures.hpp"
@@ -12,12 +12,14 @@
 
 namespace locus::pmq {
 
+enum class PackedIndex { implicit, quadtree, heads };
+
 class PackedArray final : public Layout, private View {
 public:
-    PackedArray(const RecordFormat &format, const Densities &densities, const Limits &limits, bool explicit_index);
+    PackedArray(const RecordFormat &format, const Densities &densities, const Limits &limits, PackedIndex index);
 
     // The least memory of an array that can take a record.
-    static uint64_t smallest_bytes(const RecordFormat &format, const Densities &densities) noexcept;
+    static uint64_t smallest_bytes(const RecordFormat &format, const Densities &densities, PackedIndex index) noexcept;
 
     void insert(const Batch &batch, Eviction &eviction, Departures &departures) override;
     void sweep(Eviction &eviction, Departures &departures) override;
@@ -68,6 +70,7 @@ private:
     void removal_pass(Change &change, Eviction &eviction, Departures &departures, bool overflow);
     void apply(const Change &change);
     void rebuild(const Change &change, uint64_t records, unsigned height);
+    size_t bytes(unsigned height) const noexcept { return Segments::bytes(format_, densities_, keys_, height); }
     void update(const Change &change);
     void plan(const Task &task);
     void rewrite_segment(const Task &task) noexcept;
@@ -79,6 +82,7 @@ private:
     const RecordFormat &format_;
     const Densities densities_;
     const Limits limits_;
+    const Keys keys_;
     unsigned highest_; // the height of the largest array that the limits allow
     Segments array_;
     QuadtreeIndex index_;

@@ -33,6 +33,7 @@ void PackedArray::check() const {
         hold(array_.head(segment) >= previous, "the head of segment ", segment, " is below what lies before it");
         previous = array_.head(segment);
         const size_t start = array_.slot(segment);
+        hold(array_.head(segment) == array_.slots.key(start), "the index has another head for segment ", segment);
         for (size_t slot = start, end = start + array_.size(segment); slot < end; ++slot) {
             const uint64_t key = array_.slots.key(slot);
             hold(key >= previous && key < key_end, "the key of slot ", slot, " is out of order");
@@ -46,8 +47,9 @@ void PackedArray::check() const {
                  moment_.now);
         }
     }
-    const uint64_t bytes = Segments::bytes(format_, densities_, array_.windows.height());
-    hold(bytes <= limits_.bytes, "the array has ", bytes, " bytes, more than the limit's ", limits_.bytes);
+    const uint64_t used = bytes(array_.windows.height());
+    hold(used <= limits_.bytes, "the array has ", used, " bytes, more than the limit's ", limits_.bytes);
+    hold(array_.heads.consistent(), "a sample of the heads is not the head");
     index_.check(array_);
 }
 

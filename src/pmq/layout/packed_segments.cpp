@@ -1,18 +1,32 @@
 // Searches over the segments. The implicit index is no more than these (thesis section 3.4.2).
 #include "pmq/layout/packed_segments.hpp"
 
+#include <algorithm>
+
 namespace locus::pmq {
 
-Segments::Segments(const RecordFormat &format, const Densities &densities, unsigned height)
-    : windows(densities, height), slots(format, windows.slots()) {
+Segments::Segments(const RecordFormat &format, const Densities &densities, Keys keys, unsigned height)
+    : windows(densities, height), slots(format, windows.slots(), keys), heads(keys == Keys::apart ? count() : 0) {
     slots.set_key(0, 0); // fill() sets the heads; the one segment of an empty array is never filled
 }
 
-size_t Segments::bytes(const RecordFormat &format, const Densities &densities, unsigned height) noexcept {
-    return (size_t{densities.segment_slots} << height) * Slots::stride(format) + Windows::bytes(height);
+size_t Segments::bytes(const RecordFormat &format, const Densities &densities, Keys keys, unsigned height) noexcept {
+    return (size_t{densities.segment_slots} << height) * Slots::bytes(format, keys) + Windows::bytes(height) +
+           (keys == Keys::apart ? Heads::bytes(size_t{1} << height) : 0);
+}
+
+void Segments::index_heads(size_t first, size_t segments) noexcept {
+    if (!heads.present())
+        return;
+    for (size_t s = first; s < first + segments; ++s)
+        heads.set(s, slots.key(slot(s)));
+    heads.renew(first, segments);
 }
 
 size_t Segments::locate(uint64_t key, size_t first, size_t last) const noexcept {
+    constexpr size_t few = 64; // segments, among which halving is as quick as coming down from the top
+    if (heads.present() && last - first > few)
+        return std::clamp(heads.find_below(key), first, last);
     size_t length = last - first; // the answer is first or one of the `length` segments behind it
     while (length > 0) {
         const size_t half = (length + 1) / 2;

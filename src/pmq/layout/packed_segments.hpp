@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/zcurve.hpp"
+#include "pmq/layout/packed_heads.hpp"
 #include "pmq/layout/packed_slots.hpp"
 #include "pmq/layout/packed_windows.hpp"
 
@@ -14,16 +15,20 @@ namespace locus::pmq {
 class Segments {
 public:
     Segments() = default;
-    Segments(const RecordFormat &format, const Densities &densities, unsigned height);
-    static size_t bytes(const RecordFormat &format, const Densities &densities, unsigned height) noexcept;
+    // With keys apart there is a search index over the heads.
+    Segments(const RecordFormat &format, const Densities &densities, Keys keys, unsigned height);
+    static size_t bytes(const RecordFormat &format, const Densities &densities, Keys keys, unsigned height) noexcept;
 
     Windows windows;
     Slots slots;
+    Heads heads;
 
     size_t count() const noexcept { return windows.segments(); }
     size_t size(size_t segment) const noexcept { return windows.count(0, segment); }
     size_t slot(size_t segment) const noexcept { return segment << windows.segment_shift(); }
-    uint64_t head(size_t segment) const noexcept { return slots.key(slot(segment)); }
+    uint64_t head(size_t segment) const noexcept { return heads.present() ? heads[segment] : slots.key(slot(segment)); }
+    // Renew the index over the heads of segments that were rewritten.
+    void index_heads(size_t first, size_t segments) noexcept;
 
     // Of the segments first..last the last one whose head is below `key`, or `first`: the first record with a key not
     // below `key` is there or right behind it.

@@ -59,8 +59,8 @@ LayoutStats PackedArray::stats() const {
     LayoutStats stats = counters_;
     stats.stored = array_.windows.total();
     stats.slots = array_.windows.slots();
-    stats.bytes = Segments::bytes(format_, densities_, array_.windows.height()) + index_.bytes() +
-                  scratch_size_ * Slots::stride(format_) + tasks_.capacity() * sizeof(Task) + sizeof *this;
+    stats.bytes = bytes(array_.windows.height()) + index_.bytes() + scratch_size_ * Slots::bytes(format_, keys_) +
+                  tasks_.capacity() * sizeof(Task) + sizeof *this;
     return stats;
 }
 

@@ -45,6 +45,7 @@ void add_thesis_chapter2(Cases &cases);
 void add_thesis_weights(Cases &cases);
 void add_gpu(Cases &cases);
 void add_thesis_chapter3(Cases &cases);
+void add_thesis_steady(Cases &cases);
 void add_thesis_queries(Cases &cases);
 void add_thesis_databases(Cases &cases);
 

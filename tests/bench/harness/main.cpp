@@ -50,6 +50,7 @@ Cases all_cases() {
     add_thesis_weights(cases);
     add_gpu(cases);
     add_thesis_chapter3(cases);
+    add_thesis_steady(cases);
     add_thesis_queries(cases);
     add_thesis_databases(cases);
     return cases;

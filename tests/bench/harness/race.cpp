@@ -15,24 +15,24 @@ struct Lane {
     Notes notes;
 };
 
-void run_once(Lane &lane, const Contestant &contestant, bool quick) {
+void run_once(Lane &lane, const Contestant &contestant, bool quick, std::size_t runs) {
     const double start = wall_seconds();
     lane.times.push_back(contestant.once(lane.notes));
     if (lane.times.size() == 1) {
         const bool long_run = wall_seconds() - start > 5;
-        lane.wanted = quick ? 2 : long_run ? 3 : 5;
+        lane.wanted = runs != 0 ? runs : quick ? 2 : long_run ? 3 : 5;
     }
 }
 
 } // namespace
 
-void race(Row &row, const std::vector<Contestant> &contestants) {
+void race(Row &row, const std::vector<Contestant> &contestants, std::size_t runs) {
     std::vector<Lane> lanes(contestants.size());
     for (bool busy = true; busy;) {
         busy = false;
         for (std::size_t i = 0; i < lanes.size(); ++i) {
             if (lanes[i].times.size() < lanes[i].wanted) {
-                run_once(lanes[i], contestants[i], row.quick);
+                run_once(lanes[i], contestants[i], row.quick, runs);
                 busy = true;
             }
         }

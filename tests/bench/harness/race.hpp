@@ -27,8 +27,9 @@ struct Contestant {
 };
 
 /// Run all contestants in turns, at least 5 times each, 3 times where a run takes more than 5 s, twice where the row is
-/// quick. Ours fills row.ours, the others row.peers; their notes become extras, those of a peer with its name in front.
-void race(Row &row, const std::vector<Contestant> &contestants);
+/// quick, or `runs` times if that is not 0. Ours fills row.ours, the others row.peers; their notes become extras, those
+/// of a peer with its name in front.
+void race(Row &row, const std::vector<Contestant> &contestants, std::size_t runs = 0);
 
 /// The q-quantile (0..1) of `values` (not empty).
 double quantile(std::vector<double> values, double q);

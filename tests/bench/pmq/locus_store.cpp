@@ -14,6 +14,12 @@ locus_pmq_query box_query(const locus_box &box) {
     return query;
 }
 
+uint32_t index(Layout layout) {
+    return layout == Layout::array_explicit ? LOCUS_INDEX_EXPLICIT
+           : layout == Layout::array_heads  ? LOCUS_INDEX_HEADS
+                                            : LOCUS_INDEX_IMPLICIT;
+}
+
 template <class Record>
 class LocusStore final : public TileStore<Record> {
 public:
@@ -23,7 +29,9 @@ public:
         options.record = record_kind<Record>;
         options.horizon = horizon;
         options.layout = layout == Layout::ours ? LOCUS_LAYOUT_RING_LEAVES : LOCUS_LAYOUT_PACKED_ARRAY;
-        options.index = layout == Layout::array_explicit ? LOCUS_INDEX_EXPLICIT : LOCUS_INDEX_IMPLICIT;
+        options.index = index(layout);
+        if (layout == Layout::array_heads)
+            options.segment_slots = 64;
         pmq_ = make_pmq(options);
     }
 

@@ -55,7 +55,7 @@ private:
     std::vector<Record> room_;
 };
 
-enum class Layout { ours, array, array_explicit };
+enum class Layout { ours, array, array_explicit, array_heads };
 /// How a dense vector regains its order: an adaptive stable sort, std::sort, or sorting the batch and merging from the
 /// back.
 enum class Sorting { adaptive, std_sort, merge };
@@ -90,6 +90,7 @@ std::vector<Competitor<Record>> competitors(bool with_rtree) {
     std::vector<Competitor<Record>> out{
         {"", [](int64_t horizon) { return make_locus<Record>(Layout::ours, horizon); }}};
     out.push_back({"array", [](int64_t horizon) { return make_locus<Record>(Layout::array, horizon); }});
+    out.push_back({"array_heads", [](int64_t horizon) { return make_locus<Record>(Layout::array_heads, horizon); }});
     if (have_btree()) {
         out.push_back({"btree", [](int64_t horizon) { return make_btree<Record>(horizon); }});
     }

@@ -1,8 +1,9 @@
-// The replaced operator new of this test program.
+// The replaced operator new of this test program; and mmap, wrapped by the linker (--wrap), as slabs come from there.
 #include "tests/unit/pmq/failing_memory.hpp"
 
 #include <cstdlib>
 #include <new>
+#include <sys/mman.h>
 
 namespace {
 
@@ -10,12 +11,16 @@ thread_local bool armed = false;
 thread_local size_t countdown = 0;
 thread_local bool has_failed = false;
 
+bool fails_now() noexcept {
+    if (!armed || countdown-- != 0)
+        return false;
+    armed = false;
+    return has_failed = true;
+}
+
 void *allocate(size_t size, size_t alignment) noexcept {
-    if (armed && countdown-- == 0) {
-        armed = false;
-        has_failed = true;
+    if (fails_now())
         return nullptr;
-    }
     if (alignment <= alignof(std::max_align_t))
         return std::malloc(size ? size : 1);
     return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0));
@@ -47,6 +52,14 @@ void operator delete(void *memory, std::align_val_t) noexcept { std::free(memory
 void operator delete[](void *memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void *memory, size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void *memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+extern "C" {
+void *__real_mmap(void *address, size_t length, int protection, int flags, int file,
+                  off_t offset); // the linker's names
+void *__wrap_mmap(void *address, size_t length, int protection, int flags, int file, off_t offset) {
+    return fails_now() ? MAP_FAILED : __real_mmap(address, length, protection, flags, file, offset);
+}
+}
+
 void operator delete(void *memory, const std::nothrow_t &) noexcept { std::free(memory); }
 void operator delete[](void *memory, const std::nothrow_t &) noexcept { std::free(memory); }
 

@@ -1,4 +1,4 @@
-// Memory that fails on demand: the test program's operator new counts down and throws.
+// Memory that fails on demand: the test program's operator new and mmap count down and fail.
 #pragma once
 
 #include <cstddef>

@@ -114,7 +114,7 @@ TEST_P(Logs, RecoverWhatTheStoreHeldAtEveryPoint) {
         step(pmq.get());
         const Content content = content_of(pmq.get(), kind.record);
         // As after a kill; in another layout, with another store's callbacks.
-        locus_pmq_options other = options(layouts[changes.draw.below(3)]);
+        locus_pmq_options other = options(layouts[changes.draw.below(std::size(layouts))]);
         other.remove = nullptr;
         other.sink = nullptr;
         locus_pmq_recovery recovery = empty_recovery();

@@ -75,6 +75,7 @@ inline constexpr LayoutChoice layouts[] = {
     {"ring", LOCUS_LAYOUT_RING_LEAVES, LOCUS_INDEX_IMPLICIT},
     {"implicit", LOCUS_LAYOUT_PACKED_ARRAY, LOCUS_INDEX_IMPLICIT},
     {"explicit", LOCUS_LAYOUT_PACKED_ARRAY, LOCUS_INDEX_EXPLICIT},
+    {"heads", LOCUS_LAYOUT_PACKED_ARRAY, LOCUS_INDEX_HEADS},
 };
 
 inline locus_pmq_options default_options() {

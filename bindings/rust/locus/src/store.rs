@@ -24,6 +24,8 @@ constants! {
         Implicit = LOCUS_INDEX_IMPLICIT,
         /// a pointer quadtree
         Explicit = LOCUS_INDEX_EXPLICIT,
+        /// keys apart from the records, and a tree of samples over the segments' first keys
+        Heads = LOCUS_INDEX_HEADS,
     }
     /// What to do with a time after `now`.
     Future {
