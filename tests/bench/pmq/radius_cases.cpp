@@ -21,6 +21,7 @@ std::vector<Held> fill_all(const std::vector<Point> &records) {
     stores.push_back({"", make_locus<Point>(Layout::ours, LOCUS_NO_HORIZON)});
     stores.push_back({"array", make_locus<Point>(Layout::array, LOCUS_NO_HORIZON)});
     stores.push_back({"array_explicit", make_locus<Point>(Layout::array_explicit, LOCUS_NO_HORIZON)});
+    stores.push_back({"array_heads", make_locus<Point>(Layout::array_heads, LOCUS_NO_HORIZON)});
     for (Held &held : stores) {
         feed<Point>(*held.store, records, 1000);
     }
