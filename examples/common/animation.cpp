@@ -32,20 +32,23 @@ std::string chunk(std::string_view type, std::string_view data) {
 } // namespace
 
 void Animation::add(const std::vector<uint8_t> &png) {
-    std::string header, image;
+    std::string header, palette, image;
     for (size_t at = signature.size(); at + 12 <= png.size();) {
         const uint32_t length = get32(&png[at]);
         const std::string_view type(reinterpret_cast<const char *>(&png[at + 4]), 4);
         const std::string_view data(reinterpret_cast<const char *>(png.data()) + at + 8, length);
         if (type == "IHDR")
             header = data;
+        if (type == "PLTE")
+            palette = data;
         if (type == "IDAT")
             image += data;
         at += 12 + size_t{length};
     }
-    if (!frames_.empty() && header != header_)
-        throw std::runtime_error("the frames of an animation differ in size");
+    if (!frames_.empty() && (header != header_ || palette != palette_))
+        throw std::runtime_error("the frames of an animation differ in size or palette");
     header_ = header;
+    palette_ = palette;
     frames_.push_back(std::move(image));
 }
 
@@ -55,6 +58,8 @@ void Animation::write(const std::string &path, uint16_t milliseconds) const {
     std::string file(signature);
     file += chunk("IHDR", header_);
     file += chunk("acTL", bytes32(static_cast<uint32_t>(frames_.size())) + bytes32(0)); // over and over
+    if (!palette_.empty())
+        file += chunk("PLTE", palette_);
     uint32_t sequence = 0;
     for (size_t i = 0; i < frames_.size(); ++i) {
         const bool last = i + 1 == frames_.size();

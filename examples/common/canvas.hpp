@@ -61,6 +61,9 @@ private:
 // The picture as the bytes of a PNG file.
 std::vector<uint8_t> encode_png(const Canvas &picture);
 
+// The same in these colours alone, 1..256 of them, which makes it far smaller: each pixel gets the nearest one.
+std::vector<uint8_t> encode_png(const Canvas &picture, const std::vector<Colour> &palette);
+
 // Write a file whole or not at all: into "<path>.partial", renamed once everything is on the disk. Throws
 // std::runtime_error with the path and the system's reason, and leaves no partial file.
 void write_file(const std::string &path, const void *bytes, size_t size);

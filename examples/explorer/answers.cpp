@@ -13,7 +13,7 @@ namespace explorer {
 namespace {
 
 constexpr int most_scans = 4;
-constexpr size_t kept_pictures = 2000, kept_references = 200, kept_groups = 100;
+constexpr size_t kept_pictures = 2000, kept_counts = 200, kept_peaks = 20, kept_references = 200, kept_groups = 100;
 constexpr double second = 1e6;
 constexpr size_t word_records = 20'000;
 
@@ -53,7 +53,8 @@ Turns::Turn::Turn(Turns &turns) : left_(turns.left_) {
 
 Answers::Answers(const Live &live, size_t max_results)
     : live_(live), max_results_(max_results), boot_(std::to_string(wall_clock())), turns_(most_scans),
-      pictures_(kept_pictures), references_(kept_references), groups_(kept_groups) {}
+      pictures_(kept_pictures, renewer_), counts_(kept_counts, renewer_), peaks_(kept_peaks, renewer_),
+      references_(kept_references, renewer_), groups_(kept_groups, renewer_) {}
 
 Json Answers::head(uint64_t version) const {
     const int64_t now = live_.now();
@@ -195,7 +196,7 @@ Reply Answers::aggregate(const Request &request) {
     Arguments arguments(request);
     const uint64_t version = live_.version();
     const Tiers tiers = tiers_of(arguments, live_);
-    const Selection selection(arguments, live_.now(), true);
+    const auto selection = std::make_shared<const Selection>(arguments, live_.now(), true);
     const size_t by = arguments.word("by", {"time", "cell", "word"});
     if (!arguments.has("by"))
         throw Failure(400, "by: missing (time, cell, word)");
@@ -203,16 +204,16 @@ Reply Answers::aggregate(const Request &request) {
     const auto zoom = by == 1 ? static_cast<uint32_t>(arguments.needed_integer("z", 0, 25)) : 0;
     const auto k = by == 0 ? 0 : arguments.integer("k", 1, static_cast<int64_t>(max_results_)).value_or(20);
     arguments.done();
-    const auto body = groups_.get(key_of(request), version, [&](const std::string *) {
+    const auto found = groups_.get(key_of(request), version, [=, this] {
         const Turns::Turn turn(turns_);
-        Json json = by == 0   ? by_time(tiers, selection.query(), step)
-                    : by == 1 ? by_cell(tiers, selection.query(), zoom, static_cast<size_t>(k))
-                              : by_word(tiers, selection.query(), static_cast<size_t>(k));
+        Json json = by == 0   ? by_time(tiers, selection->query(), step)
+                    : by == 1 ? by_cell(tiers, selection->query(), zoom, static_cast<size_t>(k))
+                              : by_word(tiers, selection->query(), static_cast<size_t>(k));
         json.update(head(version));
-        return json_text(json);
+        return Cache<std::string>::Made{json_text(json), version};
     });
     Reply reply = text_reply("application/json", "");
-    reply.body = body;
+    reply.body = found.value;
     return reply;
 }
 

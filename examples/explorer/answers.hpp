@@ -42,7 +42,7 @@ class Answers {
 public:
     Answers(const Live &live, size_t max_results);
 
-    Reply tile(const Request &request, const TilePlace &place, bool picture);
+    Reply tile(const Request &request, const TilePlace &place, bool drawn); // as a picture, or as numbers
     Reply scale(const Request &request);
     Reply count(const Request &request);
     Reply records(const Request &request);
@@ -55,19 +55,29 @@ private:
     struct Look; // how a tile looks: what its parameters say
 
     Json head(uint64_t version) const;
-    Reference reference(const Look &look, uint32_t zoom, const locus_pmq_query &query, uint64_t version);
+    // What is asked of tiles: a window of time, and the version of now.
+    struct Ask {
+        locus_pmq_query query;
+        std::string window; // as the parameters tell it
+        uint64_t version;
+    };
+
+    Cache<std::vector<uint32_t>>::Found counts(const TilePlace &place, uint32_t log2_bins, const Ask &ask);
+    std::vector<float> heat(const std::vector<uint32_t> &counts, const TilePlace &place, const Grain &grain,
+                            const Ask &ask) const;
+    Reference reference(const Look &look, uint32_t zoom, const Ask &ask);
+    Cache<std::string>::Made picture(const Look &look, const TilePlace &place, const Ask &ask);
 
     const Live &live_;
     size_t max_results_;
     std::string boot_; // tells the versions of this run from those of another
     Turns turns_;
     Cache<std::string> pictures_;
-    struct Measured {
-        Reference reference;
-        std::chrono::steady_clock::time_point when;
-    };
-    Cache<Measured> references_;
+    Cache<std::vector<uint32_t>> counts_;
+    Cache<Peaks> peaks_; // by time window
+    Cache<Reference> references_;
     Cache<std::string> groups_;
+    Renewer renewer_; // of the above; ends before they do
 };
 
 extern const std::vector<std::string> map_names, scale_names;

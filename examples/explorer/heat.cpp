@@ -10,17 +10,17 @@
 namespace explorer {
 namespace {
 
-constexpr double darkest = 0.18;
+constexpr double darkest = 0.34; // of the colour map: what is less is hard to see on a dark ground
 constexpr uint32_t deepest = 25; // zoom
 
 // A tile's counts with a margin around it, which its neighbours give.
 class Grid {
 public:
-    Grid(const locus_pmq *store, const TilePlace &place, const Grain &grain, const locus_pmq_query &query)
-        : store_(store), query_(query), place_(place), log2_bins_(grain.log2_bins), bins_(grain.bins()),
+    Grid(const std::vector<uint32_t> &counts, const TilePlace &place, const Grain &grain, const Count &beside)
+        : beside_(beside), place_(place), log2_bins_(grain.log2_bins), bins_(grain.bins()),
           margin_(static_cast<int>(grain.blur)), width_(bins_ + 2 * margin_),
           heat_(static_cast<size_t>(width_ * width_)) {
-        add(0, 0, log2_bins_);
+        put(counts, 0, 0, bins_);
         // Only the rim of a neighbour is asked for, in squares as wide as the margin or a little wider: a whole tile
         // takes long where many records are. Squares are tiles, too, of zoom 25 at most.
         const auto wide = static_cast<uint32_t>(std::bit_width(grain.blur - 1));
@@ -47,16 +47,17 @@ private:
         if (y < 0 || y >= squares)
             return;
         const TilePlace square{zoom, static_cast<uint32_t>(x & (squares - 1)), static_cast<uint32_t>(y)};
-        const auto counts = counts_of(store_, square, log2_square, query_);
-        const int side = 1 << log2_square;
+        put(beside_(square, log2_square), left, top, 1 << log2_square);
+    }
+
+    void put(const std::vector<uint32_t> &counts, int left, int top, int side) {
         for (int row = std::max(0, -margin_ - top); row < side && top + row < bins_ + margin_; ++row)
             for (int column = std::max(0, -margin_ - left); column < side && left + column < bins_ + margin_; ++column)
                 heat_[static_cast<size_t>((top + row + margin_) * width_ + left + column + margin_)] =
                     static_cast<float>(counts[static_cast<size_t>(row * side + column)]);
     }
 
-    const locus_pmq *store_;
-    const locus_pmq_query &query_;
+    const Count &beside_;
     TilePlace place_;
     uint32_t log2_bins_;
     int bins_, margin_, width_;
@@ -87,17 +88,13 @@ double round_up(double value) {
     return 10 * power;
 }
 
-// From the whole world down to `zoom`, each time into the fullest bin.
-TilePlace densest(const locus_pmq *store, uint32_t zoom, const locus_pmq_query &query) {
-    TilePlace place;
-    while (place.zoom < zoom) {
-        const uint32_t step = std::min(8u, zoom - place.zoom);
-        const auto counts = counts_of(store, place, step, query);
-        const auto fullest = static_cast<uint32_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-        place = {place.zoom + step, (place.x << step) + (fullest & ((1u << step) - 1)),
-                 (place.y << step) + (fullest >> step)};
-    }
-    return place;
+// Counts of bins four times as large: sums of two by two, `side` of them a side.
+std::vector<uint32_t> coarser(const std::vector<uint32_t> &counts, size_t side) {
+    std::vector<uint32_t> sums(side * side);
+    for (size_t y = 0; y < 2 * side; ++y)
+        for (size_t x = 0; x < 2 * side; ++x)
+            sums[y / 2 * side + x / 2] += counts[y * 2 * side + x];
+    return sums;
 }
 
 } // namespace
@@ -109,16 +106,14 @@ std::vector<uint32_t> counts_of(const locus_pmq *store, const TilePlace &place, 
     return counts;
 }
 
-std::vector<float> heat_of(const locus_pmq *store, const TilePlace &place, const Grain &grain,
-                           const locus_pmq_query &query) {
-    if (grain.blur == 0) {
-        const auto counts = counts_of(store, place, grain.log2_bins, query);
+std::vector<float> heat_of(const std::vector<uint32_t> &counts, const TilePlace &place, const Grain &grain,
+                           const Count &beside) {
+    if (grain.blur == 0)
         return {counts.begin(), counts.end()};
-    }
     const int bins = static_cast<int>(grain.bins());
     const int margin = static_cast<int>(grain.blur);
     const int width = bins + 2 * margin;
-    std::vector<float> grid = Grid(store, place, grain, query).take();
+    std::vector<float> grid = Grid(counts, place, grain, beside).take();
     for (uint32_t i = 0; i < grain.blur; ++i) {
         smooth(grid, width, 1, width);
         smooth(grid, width, width, 1);
@@ -129,8 +124,24 @@ std::vector<float> heat_of(const locus_pmq *store, const TilePlace &place, const
     return heat;
 }
 
-Reference reference_of(const locus_pmq *store, uint32_t zoom, const Grain &grain, const locus_pmq_query &query) {
-    auto heat = heat_of(store, densest(store, zoom, query), grain, query);
+Peaks peaks_of(const Count &count) {
+    Peaks peaks;
+    for (uint32_t zoom = 0; zoom < deepest;) {
+        const TilePlace outer = peaks[zoom];
+        const uint32_t steps = std::min(8u, deepest - zoom);
+        auto counts = count(outer, steps);
+        for (uint32_t step = steps; step > 0; --step) {
+            const auto fullest = static_cast<uint32_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+            peaks[zoom + step] = {zoom + step, (outer.x << step) + (fullest & ((1u << step) - 1)),
+                                  (outer.y << step) + (fullest >> step)};
+            counts = coarser(counts, size_t{1} << (step - 1));
+        }
+        zoom += steps;
+    }
+    return peaks;
+}
+
+Reference reference_of(std::vector<float> heat, const Grain &grain) {
     const double least = Scale(ScaleKind::linear, grain, {}).low() / 4;
     heat.erase(std::remove_if(heat.begin(), heat.end(), [&](float value) { return !(value > least); }), heat.end());
     Reference reference;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,16 @@ struct Grain {
 std::vector<uint32_t> counts_of(const locus_pmq *store, const TilePlace &place, uint32_t log2_bins,
                                 const locus_pmq_query &query, uint64_t *total = nullptr);
 
-// The same as numbers, smoothed across the borders of the tile, too.
-std::vector<float> heat_of(const locus_pmq *store, const TilePlace &place, const Grain &grain,
-                           const locus_pmq_query &query);
+// How tiles are counted: by the store, or by who remembers.
+using Count = std::function<std::vector<uint32_t>(const TilePlace &place, uint32_t log2_bins)>;
+
+// The counts of a tile as numbers, smoothed across its borders, too: `beside` counts what its neighbours give.
+std::vector<float> heat_of(const std::vector<uint32_t> &counts, const TilePlace &place, const Grain &grain,
+                           const Count &beside);
+
+// The densest tile of each zoom: down to 8 of all, deeper of those in the densest one 8 above, and so on.
+using Peaks = std::array<TilePlace, 26>;
+Peaks peaks_of(const Count &count);
 
 // What the heat of a zoom is measured by: that of its densest place.
 struct Reference {
@@ -38,7 +46,7 @@ struct Reference {
     std::array<double, parts + 1> quantiles{}; // of the bins there that are not empty: least, eighths, greatest
 };
 
-Reference reference_of(const locus_pmq *store, uint32_t zoom, const Grain &grain, const locus_pmq_query &query);
+Reference reference_of(std::vector<float> heat, const Grain &grain);
 
 enum class ScaleKind { linear, log, quantile };
 
@@ -59,7 +67,7 @@ private:
     std::array<double, Reference::parts + 1> quantiles_;
 };
 
-// The colour at a place of the scale; the dark end of a map is left out, for it would not be seen on the ground.
+// The colour at a place of the scale; the dark end of a map is left out, for it would not be seen on a dark ground.
 demo::Colour scale_colour(demo::ColourMap map, double place);
 
 // The tile as a PNG file: 256 x 256 pixels, transparent where nothing is.

@@ -6,7 +6,7 @@
 #include <locus/storage.h>
 
 #include <algorithm>
-#include <ctime>
+#include <utility>
 
 namespace explorer {
 namespace {
@@ -16,12 +16,6 @@ constexpr size_t most_waiting = 500'000; // and records
 constexpr auto tick = std::chrono::milliseconds(50);
 constexpr auto publication = std::chrono::milliseconds(200);
 constexpr int64_t rate_seconds = 5;
-
-uint64_t thread_cpu_ns() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<uint64_t>(time.tv_nsec);
-}
 
 int64_t second_now() {
     return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -167,7 +161,7 @@ std::string Live::insert(const Batch &batch) {
     if (now == INT64_MIN)
         return "";
     const auto begin = Clock::now();
-    const uint64_t cpu = thread_cpu_ns();
+    const auto cpu = thread_time();
     const locus_status status = change(batch, now);
     // What the store did not take, as it is; the next batch is tried as usual.
     if (status == LOCUS_E_MEMORY || status == LOCUS_E_ARGUMENT || status == LOCUS_E_IO || status == LOCUS_E_STATE)
@@ -180,7 +174,7 @@ std::string Live::insert(const Batch &batch) {
         older_->advance(now);
     if (batch.empty())
         return "";
-    cpu_.add(thread_cpu_ns() - cpu);
+    cpu_.add(static_cast<uint64_t>((thread_time() - cpu).count()));
     wall_.add(static_cast<uint64_t>(std::chrono::nanoseconds(Clock::now() - begin).count()));
     count(batch.size());
     int64_t first = first_.load(std::memory_order_relaxed);
@@ -228,15 +222,23 @@ std::string Live::failure() const {
 // A new version, where the store has changed since the last one: by a batch, or by records that have left.
 void Live::publish() {
     published_ = Clock::now();
-    locus_pmq_stats stats{};
-    stats.struct_size = sizeof stats;
-    check(locus_pmq_get_stats(store_.get(), &stats));
-    const uint64_t gone = stats.inserted - stats.records;
-    if (!changed_ && gone == gone_)
+    if (!changed_ && !shrunk())
         return;
     changed_ = false;
-    gone_ = gone;
     version_.fetch_add(1, std::memory_order_release);
+}
+
+// Whether records have left since this was last asked. Large stores take long to tell, and are asked less often.
+bool Live::shrunk() {
+    if (!counting_.due())
+        return false;
+    const uint64_t gone = counting_.spend([this] {
+        locus_pmq_stats stats{};
+        stats.struct_size = sizeof stats;
+        check(locus_pmq_get_stats(store_.get(), &stats));
+        return stats.inserted - stats.records;
+    });
+    return std::exchange(gone_, gone) != gone;
 }
 
 } // namespace explorer

@@ -4,6 +4,7 @@
 #include "common/stream_clock.hpp"
 #include "explorer/keeper.hpp"
 #include "explorer/latency.hpp"
+#include "explorer/thrift.hpp"
 
 #include <locus/pmq.h>
 
@@ -83,6 +84,7 @@ private:
     locus_status change(const Batch &batch, int64_t now);
     void count(size_t records);
     void publish();
+    bool shrunk();
 
     LiveSettings settings_;
     std::unique_ptr<Older> older_; // outlives the store
@@ -99,7 +101,8 @@ private:
 
     // The writer's own.
     bool changed_ = false;
-    uint64_t gone_ = 0; // records that have left, when last looked
+    uint64_t gone_ = 0; // records that had left, when last counted
+    Thrift counting_;
     Clock::time_point published_;
 
     mutable std::mutex mutex_; // of what follows

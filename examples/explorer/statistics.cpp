@@ -18,13 +18,6 @@ uint64_t resident_bytes() {
     return resident * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-locus_pmq_stats store_stats(const Live &live) {
-    locus_pmq_stats stats{};
-    stats.struct_size = sizeof stats;
-    check(locus_pmq_get_stats(live.store(), &stats));
-    return stats;
-}
-
 Json latency_json(const Histogram &histogram) {
     const auto us = [](uint64_t ns) { return static_cast<double>(ns) / microsecond; };
     if (histogram.count() == 0)
@@ -91,9 +84,22 @@ Statistics::Statistics(const Live &live, const Feed &feed, const AlertLog &alert
                        StatisticsSettings settings)
     : live_(live), feed_(feed), alerts_(alerts), counters_(counters), settings_(std::move(settings)) {}
 
+// To count the live records takes long where there are many.
+locus_pmq_stats Statistics::figures() const {
+    const std::lock_guard lock(mutex_);
+    if (counting_.due())
+        figures_ = counting_.spend([this] {
+            locus_pmq_stats stats{};
+            stats.struct_size = sizeof stats;
+            check(locus_pmq_get_stats(live_.store(), &stats));
+            return stats;
+        });
+    return figures_;
+}
+
 Json Statistics::stats() const {
     const uint64_t version = live_.version();
-    const locus_pmq_stats store = store_stats(live_);
+    const locus_pmq_stats store = figures();
     const FeedState feed = feed_.state();
     const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - begun_;
     int64_t oldest = live_.first();
@@ -144,7 +150,7 @@ Json Statistics::info() const {
 }
 
 Reply Statistics::metrics() const {
-    const locus_pmq_stats store = store_stats(live_);
+    const locus_pmq_stats store = figures();
     const auto number = [](auto value) { return static_cast<double>(value); };
     Exposition out;
     out.value("locus_records", "gauge", "Live records.", number(store.records));

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <mutex>
 
 namespace explorer {
 
@@ -36,12 +37,17 @@ public:
     Reply health() const;
 
 private:
+    locus_pmq_stats figures() const;
+
     const Live &live_;
     const Feed &feed_;
     const AlertLog &alerts_;
     const Counters &counters_;
     StatisticsSettings settings_;
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+    mutable std::mutex mutex_; // of what follows
+    mutable Thrift counting_;
+    mutable locus_pmq_stats figures_{};
 };
 
 } // namespace explorer

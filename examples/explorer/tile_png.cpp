@@ -24,7 +24,7 @@ Palette palette_of(demo::ColourMap map) {
         const demo::Colour colour = scale_colour(map, place);
         uint8_t *entry = palette.data() + 4 * (i + 1);
         entry[0] = colour.red, entry[1] = colour.green, entry[2] = colour.blue;
-        entry[3] = static_cast<uint8_t>(std::lround(255 * std::min(1.0, 0.5 + 1.5 * place)));
+        entry[3] = static_cast<uint8_t>(std::lround(255 * std::min(1.0, 0.7 + 1.5 * place)));
     }
     return palette;
 }

@@ -17,7 +17,6 @@ constexpr demo::ColourMap maps[] = {demo::ColourMap::inferno, demo::ColourMap::m
 constexpr ScaleKind scales[] = {ScaleKind::log, ScaleKind::linear, ScaleKind::quantile};
 constexpr uint32_t most_blur = 4;
 constexpr int legend_stops = 9;
-constexpr auto reference_life = std::chrono::seconds(2);
 
 std::string hex(demo::Colour colour) {
     char text[8];
@@ -28,6 +27,10 @@ std::string hex(demo::Colour colour) {
 // One of the tags in If-None-Match, or any.
 bool matches(const std::string &header, const std::string &tag) {
     return header == "*" || header.find(tag) != std::string::npos;
+}
+
+std::string place_key(const TilePlace &place) {
+    return std::to_string(place.zoom) + "/" + std::to_string(place.x) + "/" + std::to_string(place.y);
 }
 
 uint32_t log2_bins(Arguments &arguments) {
@@ -65,28 +68,56 @@ struct Answers::Look {
     std::string window;
 };
 
-// Measured anew every few seconds, and then for all tiles of a version alike.
-Reference Answers::reference(const Look &look, uint32_t zoom, const locus_pmq_query &query, uint64_t version) {
-    const std::string key = std::to_string(zoom) + "/" + look.heat_key();
-    const auto measured = references_.get(key, version, [&](const Measured *old) {
-        const auto now = std::chrono::steady_clock::now();
-        if (old != nullptr && now - old->when < reference_life)
-            return *old;
-        return Measured{reference_of(live_.store(), zoom, look.grain, query), now};
+// Counts take the longest by far, and all looks of a tile share them.
+Cache<std::vector<uint32_t>>::Found Answers::counts(const TilePlace &place, uint32_t log2_bins, const Ask &ask) {
+    const std::string key = place_key(place) + "/" + std::to_string(log2_bins) + "/" + ask.window;
+    return counts_.get(key, ask.version, [=, this] {
+        return Cache<std::vector<uint32_t>>::Made{counts_of(live_.store(), place, log2_bins, ask.query), ask.version};
     });
-    Reference reference = measured->reference;
+}
+
+std::vector<float> Answers::heat(const std::vector<uint32_t> &counts, const TilePlace &place, const Grain &grain,
+                                 const Ask &ask) const {
+    return heat_of(counts, place, grain, [&](const TilePlace &square, uint32_t log2_bins) {
+        return counts_of(live_.store(), square, log2_bins, ask.query);
+    });
+}
+
+Reference Answers::reference(const Look &look, uint32_t zoom, const Ask &ask) {
+    Reference reference;
+    if (scales[look.scale] == ScaleKind::quantile || !look.high) {
+        const auto found = references_.get(std::to_string(zoom) + "/" + look.heat_key(), ask.version, [=, this] {
+            const auto peaks = peaks_.get(look.window, ask.version, [=, this] {
+                const Count count = [&](const TilePlace &place, uint32_t log2_bins) {
+                    return *counts(place, log2_bins, ask).value;
+                };
+                return Cache<Peaks>::Made{peaks_of(count), ask.version};
+            });
+            const TilePlace peak = (*peaks.value)[zoom];
+            const auto counted = counts(peak, look.grain.log2_bins, ask);
+            return Cache<Reference>::Made{reference_of(heat(*counted.value, peak, look.grain, ask), look.grain),
+                                          ask.version};
+        });
+        reference = *found.value;
+    }
     if (look.high)
         reference.high = *look.high;
     return reference;
 }
 
-Reply Answers::tile(const Request &request, const TilePlace &place, bool picture) {
+Cache<std::string>::Made Answers::picture(const Look &look, const TilePlace &place, const Ask &ask) {
+    const Scale scale(scales[look.scale], look.grain, reference(look, place.zoom, ask));
+    const auto counted = counts(place, look.grain.log2_bins, ask);
+    const auto values = heat(*counted.value, place, look.grain, ask);
+    return {tile_png(values, look.grain, scale, maps[look.map]), counted.version};
+}
+
+Reply Answers::tile(const Request &request, const TilePlace &place, bool drawn) {
     Arguments arguments(request);
     const uint64_t version = live_.version();
     const Selection selection(arguments, live_.now(), false);
     arguments.text("v", "");
-    const std::string name = std::to_string(place.zoom) + "/" + std::to_string(place.x) + "/" + std::to_string(place.y);
-    if (!picture) {
+    if (!drawn) {
         const uint32_t bins = log2_bins(arguments);
         arguments.done();
         uint64_t total = 0;
@@ -99,21 +130,19 @@ Reply Answers::tile(const Request &request, const TilePlace &place, bool picture
     }
     const Look look(arguments);
     arguments.done();
-    const std::string key = name + "/" + look.key();
-    const std::string tag =
-        "\"" + boot_ + "-" + std::to_string(version) + "-" + std::to_string(std::hash<std::string>()(key)) + "\"";
+    const std::string key = place_key(place) + "/" + look.key();
+    const Ask ask{selection.query(), look.window, version};
+    const auto found = pictures_.get(key, version, [=, this] { return picture(look, place, ask); });
+    const std::string shown = std::to_string(found.version);
+    const std::string tag = "\"" + boot_ + "-" + shown + "-" + std::to_string(std::hash<std::string>()(key)) + "\"";
     Reply reply;
     if (matches(request.header("if-none-match"), tag)) {
         reply.status = 304;
     } else {
         reply.type = "image/png";
-        reply.body = pictures_.get(key, version, [&](const std::string *) {
-            const Scale scale(scales[look.scale], look.grain, reference(look, place.zoom, selection.query(), version));
-            const auto heat = heat_of(live_.store(), place, look.grain, selection.query());
-            return tile_png(heat, look.grain, scale, maps[look.map]);
-        });
+        reply.body = found.value;
     }
-    reply.headers = {{"ETag", "W/" + tag}, {"Cache-Control", "no-cache"}, {"Locus-Version", std::to_string(version)}};
+    reply.headers = {{"ETag", "W/" + tag}, {"Cache-Control", "no-cache"}, {"Locus-Version", shown}};
     return reply;
 }
 
@@ -125,7 +154,7 @@ Reply Answers::scale(const Request &request) {
     arguments.text("v", "");
     const Look look(arguments);
     arguments.done();
-    const Scale scale(scales[look.scale], look.grain, reference(look, zoom, selection.query(), version));
+    const Scale scale(scales[look.scale], look.grain, reference(look, zoom, {selection.query(), look.window, version}));
     Json json{{"z", zoom},
               {"map", map_names[look.map]},
               {"scale", scale_names[look.scale]},

@@ -5,6 +5,7 @@
 #include "stream/window.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -17,6 +18,8 @@ constexpr Colour shore{62, 70, 90};
 constexpr Colour ink{226, 228, 236};
 constexpr Colour faint{140, 146, 164};
 constexpr Colour mark{120, 220, 255};
+constexpr Colour paper{14, 16, 24};
+constexpr int heat_steps = 64; // which nobody sees, and which PNG packs well
 
 constexpr int footing = 52; // height of the legend below the map
 constexpr uint32_t log2_bins = 8;
@@ -91,25 +94,37 @@ std::vector<float> smooth(const std::vector<uint32_t> &counts, int width, int he
     return result;
 }
 
+// A colour of the heat, and how far it covers the ground: the dark end fades into it.
+struct Heat {
+    Colour colour;
+    double cover;
+};
+
 // Logarithmic brightness between these numbers of records per pixel.
 struct Scale {
     static constexpr double darkest = 0.18; // of the colour map: what is less would not be seen on the ground
     double low = 0.1;
     double high = 1;
     double place(double value) const { return std::log(value / low) / std::log(high / low); }
+    static Heat heat(int step) {
+        const double place = static_cast<double>(step) / heat_steps;
+        return {colour_of(ColourMap::inferno, darkest + (1 - darkest) * place), std::min(1.0, 0.25 + 2.5 * place)};
+    }
 };
 
-void draw_heat(Canvas &canvas, const View &view, const std::vector<float> &heat, const Scale &scale, int above) {
+void draw_heat(Canvas &canvas, const View &view, const std::vector<float> &values, const Scale &scale, int above) {
+    std::array<Heat, heat_steps + 1> heats;
+    for (int step = 0; step <= heat_steps; ++step)
+        heats[static_cast<size_t>(step)] = Scale::heat(step);
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
             const double value =
-                heat[static_cast<size_t>(y) * static_cast<size_t>(view.width) + static_cast<size_t>(x)];
+                values[static_cast<size_t>(y) * static_cast<size_t>(view.width) + static_cast<size_t>(x)];
             if (value <= scale.low / 4)
                 continue;
-            // In 64 steps, which nobody sees and PNG packs well. The dark end fades into the ground.
-            const double place = std::round(64 * std::max(0.0, scale.place(value))) / 64;
-            const Colour colour = colour_of(ColourMap::inferno, Scale::darkest + (1 - Scale::darkest) * place);
-            canvas.blend(x, above + y, colour, 0.25 + 2.5 * place);
+            const auto step = static_cast<int>(std::lround(heat_steps * std::clamp(scale.place(value), 0.0, 1.0)));
+            const Heat heat = heats[static_cast<size_t>(step)];
+            canvas.blend(x, above + y, heat.colour, heat.cover);
         }
 }
 
@@ -207,7 +222,7 @@ std::vector<uint32_t> counts_of(const View &view, const locus_pmq *store) {
 
 Canvas draw_map(const View &view, const World &world, const std::vector<uint32_t> &counts, const MapText &text) {
     const int heading = text.solar_hours ? 84 : 64; // height of the text above the map
-    Canvas canvas(view.width, heading + view.height + footing, {14, 16, 24});
+    Canvas canvas(view.width, heading + view.height + footing, paper);
     canvas.fill(0, heading, view.width, view.height, sea);
     if (view.pixel_km() >= finest_land_km) {
         fill_land(canvas, view, world, heading);
@@ -221,14 +236,33 @@ Canvas draw_map(const View &view, const World &world, const std::vector<uint32_t
     draw_heat(canvas, view, heat, scale, heading);
     draw_labels(canvas, view, text.labels, heading);
     // Lines and rings may have left the map.
-    canvas.fill(0, 0, view.width, heading, {14, 16, 24});
-    canvas.fill(0, heading + view.height, view.width, footing, {14, 16, 24});
+    canvas.fill(0, 0, view.width, heading, paper);
+    canvas.fill(0, heading + view.height, view.width, footing, paper);
     canvas.text(16, 8, text.title, ink, Font::large);
     canvas.text(16, 34, text.subtitle, faint);
     if (text.solar_hours)
         draw_solar_hours(canvas, view, text.clock, heading);
     draw_scale(canvas, view, scale, heading + view.height);
     return canvas;
+}
+
+std::vector<Colour> map_colours() {
+    constexpr int ramp = 6; // of a shore's smooth line
+    std::vector<Colour> colours{paper, ink, faint, mark, {0, 0, 0}, mix(ink, {}, 0.5), mix(mark, sea, 0.5)};
+    std::vector<Colour> grounds{sea, land};
+    for (int i = 1; i <= ramp; ++i)
+        for (const Colour ground : {sea, land})
+            grounds.push_back(mix(ground, shore, 0.8 * i / ramp));
+    colours.insert(colours.end(), grounds.begin(), grounds.end());
+    grounds = {sea, land, mix(land, shore, 0.8)};
+    for (int step = 0; step <= heat_steps; ++step) {
+        const Heat heat = Scale::heat(step);
+        colours.push_back(heat.colour); // the legend's
+        for (const Colour ground : grounds)
+            if (heat.cover < 1)
+                colours.push_back(mix(ground, heat.colour, heat.cover));
+    }
+    return colours;
 }
 
 } // namespace demo

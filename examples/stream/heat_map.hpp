@@ -31,4 +31,7 @@ struct MapText {
 // The picture: heading, map, legend.
 Canvas draw_map(const View &view, const World &world, const std::vector<uint32_t> &counts, const MapText &text);
 
+// The colours of such pictures, for a palette: but for blends at the edges of lines, all of them.
+std::vector<Colour> map_colours();
+
 } // namespace demo

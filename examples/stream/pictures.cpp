@@ -188,7 +188,7 @@ void Pictures::frame(const Window &window) {
             choose_zoom(window);
             frame_view_ = local_ ? *zoom_ : world_view(frame_level);
         }
-        const std::vector<uint8_t> png = encode_png(draw(*frame_view_, window, local_));
+        const std::vector<uint8_t> png = encode_png(draw(*frame_view_, window, local_), map_colours());
         char name[32];
         std::snprintf(name, sizeof name, "/frames/frame-%04zu.png", animation_.frames() + 1);
         write_file(settings_.folder + name, png.data(), png.size());

@@ -60,6 +60,16 @@ int32_t keep_newest(const void *record, void *user) {
     return 0;
 }
 
+void print_waits(const Waits &waits, double records, double insert_seconds) {
+    if (waits.times == 0) {
+        std::printf("Database   never waited for\n");
+        return;
+    }
+    std::printf("Database   waited for %s times, %s in all, longest %s; with that %s records/s\n",
+                with_commas(waits.times).c_str(), duration_text(waits.seconds).c_str(),
+                duration_text(waits.longest).c_str(), rate_text(records / (insert_seconds + waits.seconds)).c_str());
+}
+
 std::string quoted(const std::string &text) {
     std::string result = "\"";
     for (const char c : text)
@@ -114,6 +124,8 @@ void print_summary(const Window &window, const Source &source, size_t batch, dou
                 with_commas(batch).c_str());
     std::printf("Pauses     p50 %s, p99 %s, longest %s per batch\n", duration_text(pause.middle).c_str(),
                 duration_text(pause.p99).c_str(), duration_text(pause.longest).c_str());
+    if (window.keeps())
+        print_waits(window.waits(), static_cast<double>(stats.inserted), window.insert_seconds());
     std::printf("Window     %s records live, %s evicted; the clock is %s UTC\n", with_commas(stats.records).c_str(),
                 with_commas(stats.evicted).c_str(), time_text(window.clock()).c_str());
     rusage usage{};

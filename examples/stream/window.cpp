@@ -8,8 +8,16 @@
 #include <filesystem>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 namespace demo {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+} // namespace
 
 void check(locus_status status) {
     if (status != LOCUS_OK)
@@ -56,6 +64,8 @@ locus_pmq_options Window::with_tier() {
     locus_cold_options tier;
     check_cold(locus_cold_options_init(&tier, sizeof tier));
     tier.record = options.record;
+    tier.when_full = LOCUS_COLD_FULL_REFUSE; // what it takes to wait is told apart from what the store takes
+    queue_bytes_ = tier.queue_bytes;
     locus_cold *cold = nullptr;
     check_cold(locus_cold_open(path("older.db").c_str(), &tier, &cold));
     cold_.reset(cold);
@@ -76,17 +86,41 @@ void Window::insert(const std::vector<locus_text156> &batch) {
     }
     const auto begin = std::chrono::steady_clock::now();
     const locus_status status = locus_pmq_insert(store_.get(), batch.data(), batch.size(), clock_);
-    if (status == LOCUS_E_STOPPED && cold_)
-        check_cold(locus_cold_flush(cold_.get())); // it tells why it takes no more
-    check(status);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    seconds_.push_back(taken.count());
-    insert_seconds_ += taken.count();
+    const double taken = seconds_since(begin);
+    const bool full =
+        status == LOCUS_E_STOPPED && cold_; // the batch is stored, what left the window waits in the store
+    if (!full)
+        check(status);
+    seconds_.push_back(taken);
+    insert_seconds_ += taken;
+    if (full)
+        sweep();
 }
 
+// As often as the tier is full on the way.
 void Window::sweep() {
-    if (clock_ != INT64_MIN)
-        check(locus_pmq_sweep(store_.get(), clock_, nullptr));
+    if (clock_ == INT64_MIN)
+        return;
+    locus_status status = LOCUS_OK;
+    while ((status = locus_pmq_sweep(store_.get(), clock_, nullptr)) == LOCUS_E_STOPPED && cold_)
+        wait_for_tier();
+    check(status);
+}
+
+// Until its queue is half empty.
+void Window::wait_for_tier() {
+    const auto begin = std::chrono::steady_clock::now();
+    locus_cold_stats stats = cold_stats();
+    while (stats.failure == LOCUS_OK && stats.queue_bytes > queue_bytes_ / 2) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        stats = cold_stats();
+    }
+    if (stats.failure != LOCUS_OK)
+        check_cold(locus_cold_flush(cold_.get())); // it tells why it takes no more
+    const double taken = seconds_since(begin);
+    ++waits_.times;
+    waits_.seconds += taken;
+    waits_.longest = std::max(waits_.longest, taken);
 }
 
 locus_pmq_stats Window::stats() const {
@@ -110,12 +144,12 @@ uint64_t Window::count_both(const locus_pmq_query *query) const {
 }
 
 Restart Window::restart() {
-    using std::chrono::duration, std::chrono::steady_clock;
+    using std::chrono::steady_clock;
     Restart result;
     const auto begin = steady_clock::now();
     check_cold(locus_cold_flush(cold_.get()));
     check(locus_pmq_save(store_.get(), nullptr, path("window.pmq").c_str(), nullptr, nullptr));
-    result.saving = duration<double>(steady_clock::now() - begin).count();
+    result.saving = seconds_since(begin);
     store_.reset();
     cold_.reset();
 
@@ -125,7 +159,7 @@ Restart Window::restart() {
     check(locus_pmq_load(path("window.pmq").c_str(), &options, nullptr, nullptr, &store));
     store_.reset(store);
     sweep();
-    result.loading = duration<double>(steady_clock::now() - again).count();
+    result.loading = seconds_since(again);
     result.records = stats().records;
     result.bytes = std::filesystem::file_size(path("window.pmq"));
     return result;

@@ -18,6 +18,12 @@ struct Latencies {
     double mean = 0, middle = 0, p99 = 0, longest = 0; // seconds per batch
 };
 
+// Waiting for the cold tier, which is slower than a replay can be.
+struct Waits {
+    uint64_t times = 0;
+    double seconds = 0, longest = 0;
+};
+
 // A store that was saved, ended and loaded.
 struct Restart {
     uint64_t records = 0, bytes = 0; // of the saved window
@@ -48,6 +54,8 @@ public:
     int64_t clock() const { return clock_; }                 // INT64_MIN before the first record
     Latencies latencies() const;
     double insert_seconds() const { return insert_seconds_; }
+    const Waits &waits() const { return waits_; } // beside the inserts
+    bool keeps() const { return !folder_.empty(); }
     uint64_t late() const { return late_; }   // records older than the window when they came
     uint64_t ahead() const { return ahead_; } // records whose time was set back to the clock
 
@@ -61,10 +69,12 @@ private:
     };
 
     locus_pmq_options with_tier();
+    void wait_for_tier();
     std::string path(const char *name) const { return folder_ + "/" + name; }
 
     int64_t horizon_;
     std::string folder_;
+    uint64_t queue_bytes_ = 0; // of the tier
     locus_pmq_options options_;
     StreamClock stream_clock_;
     std::unique_ptr<locus_cold, Close> cold_; // outlives the store
@@ -72,6 +82,7 @@ private:
     int64_t clock_ = INT64_MIN;
     std::vector<double> seconds_; // per batch
     double insert_seconds_ = 0;
+    Waits waits_;
     uint64_t late_ = 0;
     uint64_t ahead_ = 0;
 };

@@ -51,6 +51,7 @@ kept() { expect 0 "$1" "$stream" --posts 700000 --hours 6 --window 2 --events 3 
 kept kept
 says kept 'Alerts +3 of 3 planted bursts found, 0 alerts beside them'
 says kept '^ +2026-03-21 .* alert after +[0-9]+ min '
+says kept '^Database   (never waited for|waited for [0-9]+ times, .* in all, longest .*; with that .* records/s)'
 says kept 'score 0\.[0-9]+ +[0-9.]+ km  2026-03-21 0[0-9:]+  .'
 says kept '^Restart +[0-9,]+ records \(.*saved in .* and loaded in .*; [0-9,]+ older ones in SQLite'
 says kept '^Both tiers [0-9,]+ records within 30 km around Paris, FR'

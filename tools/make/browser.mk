@@ -12,6 +12,17 @@ browser-test: $(EXAMPLE_explorer) $(BROWSER_MODULES) | $(call needs,browser) ## 
 CHECKS += browser-test
 check: browser-test
 
+# Both tiers under load: about two minutes and a half each. `make check` runs a small one, which asserts nothing about time.
+EXPLORER_LOAD := /usr/bin/python3 tests/examples/explorer_load.py $(EXAMPLE_explorer)
+.PHONY: explorer-load check-explorer-load
+explorer-load: $(EXAMPLE_explorer) $(BROWSER_MODULES) | $(call needs,browser) $(call needs,test) ## the explorer with 10 M records, 20,000 arrivals/s and 100 listeners; LOAD_FLAGS: see docs/explorer.md
+	@$(EXPLORER_LOAD) --page $(LOAD_FLAGS)
+	@$(EXPLORER_LOAD) --page --keep $(LOAD_FLAGS)
+check-explorer-load: $(EXAMPLE_explorer) $(BROWSER_MODULES) | $(call needs,browser) $(call needs,test)
+	$(STAGE) $(FLAVOUR)$@ $(EXPLORER_LOAD) --records 200000 --rate 2000 --listeners 100 --seconds 4 --page 1 --keep
+CHECKS += check-explorer-load
+check: check-explorer-load
+
 # What the page takes from npm packages, made anew and compared.
 .PHONY: check-page-files
 check-page-files: | $(call needs,browser)

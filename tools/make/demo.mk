@@ -52,7 +52,7 @@ explorer: $(EXAMPLE_explorer) ## build the explorer and serve the demo stream at
 # Unit tests of the examples' own parts.
 UNIT_LIBS_examples := -lpng -lz
 $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/examples/*.cpp)): EXTRA_CPPFLAGS += -Iexamples
-$(OUT)/tests/unit_examples: $(EXAMPLE_COMMON) $(filter-out %/main.cpp.o,$(OBJECTS_example_stream))
+$(OUT)/tests/unit_examples: $(EXAMPLE_COMMON) $(filter-out %/main.cpp.o,$(OBJECTS_example_stream)) $(OUT)/examples/explorer/renewer.cpp.o
 
 # Volumes: a head CT out of InVesalius' compressed tar, and the steak where its data are.
 $(eval $(call example,volume))

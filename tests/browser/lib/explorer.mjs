@@ -8,11 +8,13 @@ const START_MS = 60000;
 // A test that is ended from outside leaves no server behind.
 process.once('SIGTERM', () => process.exit(143));
 
+const lines = (records) => records.map((record) => `${JSON.stringify(record)}\n`).join('');
+
 export class Explorer {
   // `args`: of the program; it is stopped when the test `t` ends.
   static async start(t, args, port = 0) {
     const server = new Explorer();
-    server.process = spawn(process.env.EXPLORER, ['--port', String(port), ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+    server.process = spawn(process.env.EXPLORER, ['--port', String(port), ...args], { stdio: 'pipe' });
     defer(t, () => server.stop());
     process.once('exit', () => server.process.kill());
     server.url = await server.address();
@@ -53,9 +55,14 @@ export class Explorer {
     return answer.json();
   }
 
+  // Write records to its standard input, which it reads with --json -.
+  feed(records) {
+    this.process.stdin.write(lines(records));
+  }
+
   // Store records; they can be asked for when this returns.
   async ingest(records) {
-    const body = records.map((record) => `${JSON.stringify(record)}\n`).join('');
+    const body = lines(records);
     const answer = await fetch(`${this.url}/ingest`, { method: 'POST', headers: { 'Content-Type': 'application/x-ndjson' }, body });
     if (!answer.ok) throw new Error(`/ingest: ${answer.status} ${await answer.text()}`);
     return answer.json();

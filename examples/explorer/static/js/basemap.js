@@ -2,17 +2,38 @@
 import L from './leaflet.js';
 import { colour } from './dom.js';
 
-// A line of the file: longitude and latitude in 0.01 degrees, then differences; here with its bounds.
+const MOST = 85.0511287798066; // Web Mercator's latitudes
+
+// A line of the file: longitude and latitude in 0.01 degrees, then differences; here on the map, 0..1 from the north-west, with its bounds.
 function decode(numbers) {
-  const points = [];
-  const bounds = L.latLngBounds([]);
-  for (let i = 0, x = 0, y = 0; i < numbers.length; i += 2) {
-    x += numbers[i];
-    y += numbers[i + 1];
-    points.push(L.latLng(y / 100, x / 100));
-    bounds.extend(points.at(-1));
+  const count = numbers.length / 2;
+  const line = { xs: new Float64Array(count), ys: new Float64Array(count), left: Infinity, right: -Infinity, top: Infinity, bottom: -Infinity };
+  for (let i = 0, longitude = 0, latitude = 0; i < count; ++i) {
+    longitude += numbers[2 * i];
+    latitude += numbers[2 * i + 1];
+    const sine = Math.sin(Math.max(-MOST, Math.min(MOST, latitude / 100)) * Math.PI / 180);
+    const x = line.xs[i] = longitude / 36000 + 0.5;
+    const y = line.ys[i] = 0.5 - Math.log((1 + sine) / (1 - sine)) / (4 * Math.PI);
+    line.left = Math.min(line.left, x);
+    line.right = Math.max(line.right, x);
+    line.top = Math.min(line.top, y);
+    line.bottom = Math.max(line.bottom, y);
   }
-  return { points, bounds };
+  return line;
+}
+
+const LEAST = 0.5; // pixels between two points of a line; closer ones are left out, but for those where rings are cut
+
+// A line's pixels, from `origin` on, on a map `world` pixels wide.
+function pixels({ xs, ys }, world, origin) {
+  const points = [];
+  for (let i = 0, x, y; i < xs.length; ++i) {
+    const nextX = xs[i] * world - origin.x, nextY = ys[i] * world - origin.y;
+    const edge = xs[i] === 0 || xs[i] === 1 || i === 0 || i === xs.length - 1;
+    if (!edge && Math.abs(nextX - x) < LEAST && Math.abs(nextY - y) < LEAST) continue;
+    points.push(L.point(x = nextX, y = nextY));
+  }
+  return points;
 }
 
 const MARGIN = 8; // pixels around a tile that its lines are drawn in, so that strokes do not end at its edge
@@ -38,18 +59,19 @@ export const Basemap = L.GridLayer.extend({
   drawTile(pen, coords, tile) {
     const box = L.bounds(tile.min.subtract([MARGIN, MARGIN]), tile.max.add([MARGIN, MARGIN]));
     const origin = coords.scaleBy(this.getTileSize());
-    const project = (points) => points.map((point) => this._map.project(point, coords.z)._subtract(origin));
-    const around = this._tileCoordsToBounds(coords).pad(0.1);
-    const seen = (lines) => lines.filter(({ bounds }) => bounds.intersects(around));
-    const land = seen(this.land).map(({ points }) => project(points));
+    const world = L.CRS.EPSG3857.scale(coords.z);
+    const crosses = ({ left, right, top, bottom }) => left * world <= origin.x + box.max.x && right * world >= origin.x + box.min.x &&
+      top * world <= origin.y + box.max.y && bottom * world >= origin.y + box.min.y;
+    const seen = (lines) => lines.filter(crosses).map((line) => pixels(line, world, origin));
+    const land = seen(this.land);
 
     pen.beginPath();
     for (const ring of land) this.tracePath(pen, L.PolyUtil.clipPolygon(ring, box));
     pen.fillStyle = colour('--land');
     pen.fill('evenodd');
 
-    this.strokeLines(pen, seen(this.borders).map(({ points }) => project(points)), box, '--border');
-    this.strokeLines(pen, land, box, '--coast', L.CRS.EPSG3857.scale(coords.z), origin);
+    this.strokeLines(pen, seen(this.borders), box, '--border');
+    this.strokeLines(pen, land, box, '--coast', world, origin);
   },
 
   tracePath(pen, points) {

@@ -11,6 +11,7 @@ export const HeatLayer = L.GridLayer.extend({
     L.setOptions(this, options);
     this.parameters = parameters;
     this.failed = failed;
+    this.shown = Infinity; // the oldest version that a tile shows
     this.on('tileunload', ({ tile }) => tile.request?.abort());
   },
 
@@ -39,6 +40,7 @@ export const HeatLayer = L.GridLayer.extend({
     tile.request?.abort();
     const request = tile.request = new AbortController();
     const answer = await fetched(`/tiles/${z}/${x}/${y}.png`, this.parameters(z), request.signal);
+    this.shown = Math.min(this.shown, Number(answer.headers.get('Locus-Version')));
     return createImageBitmap(await answer.blob());
   },
 
@@ -69,6 +71,7 @@ export const HeatLayer = L.GridLayer.extend({
 
   async drawAgain() {
     const tiles = Object.values(this._tiles ?? {}).filter(({ current }) => current);
+    this.shown = Infinity;
     const pictures = await Promise.allSettled(tiles.map(({ el, coords }) => this.load(el, this._wrapCoords(coords))));
     pictures.forEach(({ status, value, reason }, i) => {
       if (status === 'fulfilled') this.paint(tiles[i].el, value);

@@ -10,7 +10,7 @@ const LEAST_MS = 1000; // between two drawings
 
 let map, layer;
 let version = 0; // of the store, as told by the server
-let drawn = -1; // the version that is shown
+let drawn = -1; // the version that is shown: of the tiles the oldest, for one that takes the server long may be of a while ago
 let timer = 0;
 let last = 0; // when a drawing ended
 let cost = 0; // milliseconds that it took
@@ -37,7 +37,7 @@ async function redraw() {
   await Promise.all([layer.refresh(), scale()]);
   last = performance.now();
   cost = last - begin;
-  drawn = at;
+  drawn = Math.min(at, layer.shown);
   if (drawn !== version && !paused()) plan();
 }
 
