@@ -103,6 +103,11 @@ public:
         filter_ = std::move(filter);
         return *this;
     }
+    /* Records that have expired and have not left the store yet, too. Not for pmq::erase. */
+    query &expired() {
+        plain_.expired = 1;
+        return *this;
+    }
     /* Ask a snapshot of the store, which must live until the query is asked. */
     query &at(const snapshot &moment) {
         plain_.snapshot = moment.get();

@@ -55,12 +55,13 @@ function setPolygon(struct, rings) {
  * @returns {Struct}
  */
 export function cQuery(query, record, callback, snapshot) {
-  const { box, circle, polygon, since, until, filter } = query ?? {};
+  const { box, circle, polygon, since, until, filter, expired } = query ?? {};
   if ([box, circle, polygon].filter(Boolean).length > 1) {
     throw new TypeError('a query has one region: a box, a circle or a polygon');
   }
   const struct = options('locus_pmq_query_init', {
     snapshot,
+    expired: expired ? 1 : 0,
     time_from: since === undefined ? undefined : microseconds(since, 'since'),
     time_to: until === undefined ? undefined : microseconds(until, 'until'),
   });

@@ -99,6 +99,8 @@ export interface Query<Value = Point32> {
   /** The first and the last time, both included. */
   since?: Time;
   until?: Time;
+  /** Records that have expired and have not left the store yet, too; not for `erase`. */
+  expired?: boolean;
 }
 
 /** A query of a Sync call, which may ask a function too. The record that it is shown is valid during the call only. */

@@ -209,3 +209,12 @@ test('errors name the record', async () => {
   thrown(() => new locus.Store({ record: 'point64' }), RangeError, /point32, text156/);
   assert.equal(locus.pmqKey(0, 0), 3 * 2 ** 48);
 });
+
+test('expired records until they leave', async () => {
+  const store = new locus.Store({ horizon: 1000 * locus.SECOND });
+  store.insertSync(posts(1000), NOON + 1e9);
+  store.insertSync(posts(0), NOON + 1e9 + 1e7);
+  assert.equal(await store.count({ expired: true }), store.stats.stored);
+  assert.equal(store.countSync(), 990);
+  thrown(() => store.eraseSync({ expired: true }), locus.ArgumentError, /expired/);
+});

@@ -66,6 +66,8 @@ class Query:
         Times, both included; ints are microseconds since 1970.
     filter : callable, optional
         ``filter(record) -> bool``; the record is valid during the call only.
+    expired : bool
+        Records that have expired and have not left the store yet, too. Not for `Store.erase`.
     """
 
     box: Box | tuple[float, float, float, float] | None = None
@@ -74,6 +76,7 @@ class Query:
     since: Time | None = None
     until: Time | None = None
     filter: Predicate | None = None
+    expired: bool = False
 
 
 #: How often a value of a field occurs, and the newest time among those records.
@@ -184,6 +187,7 @@ class Asked:
         self.c = filled_options("locus_pmq_query", lib.locus_pmq_query_init)
         self.callbacks: Callbacks | None = None
         self._keep: list[Any] = []
+        self.c.expired = asked.expired
         if snapshot is not None:
             self.c.snapshot = snapshot
         if asked.since is not None:

@@ -204,3 +204,12 @@ def test_nothing_is_kept_alive(random):
     del store, sink
     gc.collect()
     assert gone() is None
+
+
+def test_expired_records_until_they_leave(random):
+    store = locus.Store(horizon=np.timedelta64(1000, "s"))
+    store.insert(posts(random, 1000, locus.POINT32), NOON + 10**9)
+    store.insert(posts(random, 0, locus.POINT32), NOON + 10**9 + 10**7)
+    assert store.count() == 990 <= store.count(locus.Query(expired=True)) == store.stats.stored
+    with pytest.raises(locus.ArgumentError, match="expired"):
+        store.erase(locus.Query(expired=True))

@@ -123,6 +123,19 @@ TEST(CppPmq, EvictionThroughLambdas) {
     EXPECT_EQ(gone.size(), 1000u);
 }
 
+TEST(CppPmq, ExpiredRecordsUntilTheyLeave) {
+    locus::pmq_options<> options;
+    options.horizon = 1000;
+    locus::pmq<> store(options);
+    store.insert(some_records(1000, noon, 10), noon + 1000);
+    store.insert({}, noon + 1010);
+    EXPECT_EQ(store.count(), 990u);
+    EXPECT_EQ(store.count(locus::query<>().expired()), store.stats().stored);
+    locus::status status;
+    store.erase(locus::query<>().expired(), &status);
+    EXPECT_NE(status.text().find("expired"), std::string::npos) << status.text();
+}
+
 TEST(CppPmq, ASinkThatThrowsLosesNothing) {
     size_t taken = 0;
     bool full = true;
