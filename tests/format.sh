@@ -5,9 +5,7 @@ failed=0
 code=(git ls-files '*.c' '*.h' '*.cpp' '*.hpp' '*.cu' '*.cuh')
 text=("${code[@]}" '*.mk' '*.sh' '*.py' '*.js' '*.ts' '*.rs' '*.md' '*.txt' Makefile .ci/run)
 
-for file in $("${code[@]}"); do
-    clang-format "$file" | cmp -s - "$file" || { echo "not as clang-format has it (make format): $file"; failed=1; }
-done
+"${code[@]}" -z | xargs -0 clang-format --dry-run --Werror --ferror-limit=1 || { echo "not as clang-format has it: make format"; failed=1; }
 long=$("${code[@]}" '*.mk' '*.sh' '*.py' '*.js' '*.ts' '*.rs' | xargs wc -l | awk '$2 != "total" && $1 > 800')
 [ -z "$long" ] || { echo "longer than 800 lines:"; echo "$long"; failed=1; }
 notes=$("${text[@]}" | grep -vxF tests/format.sh | xargs grep -nE '\b(TODO|FIXME|XXX)\b|/work/|/home/[a-z]' || true)

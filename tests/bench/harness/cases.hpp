@@ -39,6 +39,7 @@ void add_pmq_storage(Cases &cases);
 void add_pmq_topk(Cases &cases);
 void add_pmq_cold(Cases &cases);
 void add_voronoi(Cases &cases);
+void add_voronoi_large(Cases &cases);
 void add_updates(Cases &cases);
 void add_weights(Cases &cases);
 void add_thesis_chapter2(Cases &cases);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <malloc.h>
+#include <sys/resource.h>
 #include <thread>
 #include <vector>
 
@@ -52,6 +53,12 @@ double copy_bandwidth(unsigned threads) {
                         }));
     }
     return 2.0 * static_cast<double>(block) * threads / best;
+}
+
+std::size_t peak_bytes() {
+    struct rusage usage {};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
 std::size_t allocated_bytes() {

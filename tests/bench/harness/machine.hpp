@@ -14,6 +14,8 @@ std::string commit();
 std::string build_target();
 /// Bytes per second that `threads` threads together read and write while they copy large blocks.
 double copy_bandwidth(unsigned threads);
+/// The most memory that this process has had.
+std::size_t peak_bytes();
 /// Bytes that malloc has handed out and not got back.
 std::size_t allocated_bytes();
 

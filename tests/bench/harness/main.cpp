@@ -44,6 +44,7 @@ Cases all_cases() {
     add_pmq_topk(cases);
     add_pmq_cold(cases);
     add_voronoi(cases);
+    add_voronoi_large(cases);
     add_updates(cases);
     add_weights(cases);
     add_thesis_chapter2(cases);
