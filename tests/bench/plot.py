@@ -63,7 +63,7 @@ def value(row, peer, name):
 
 
 def mean(row, peer):
-    return row["peers"][peer] if peer else row["median"]
+    return row["peers"][peer] if peer else row["ours"]
 
 
 def tables(rows, path):
