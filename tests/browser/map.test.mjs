@@ -13,6 +13,7 @@ test('the map draws: land, sea and the heat of the stream', async (t) => {
   const server = await Explorer.start(t, DEMO);
   const page = await open(t, server.url);
   await until(page, drawn);
+  await until(page, () => !document.querySelector('.leaflet-tile:not(.leaflet-tile-loaded)') && !document.querySelector('.leaflet-tile[style*="opacity: 0"]'));
   const pixels = await screen(page, { x: 250, y: 80, width: 650, height: 500 });
   const area = pixels.width * pixels.height;
   assert.ok(countPixels(pixels, hot) > area / 2000, 'heat');

@@ -22,7 +22,7 @@ function decode(numbers) {
   return line;
 }
 
-const LEAST = 0.5; // pixels between two points of a line; closer ones are left out, but for those where rings are cut
+const LEAST = 1; // pixel between two points of a line; closer ones are left out, but for those where rings are cut
 
 // A line's pixels, from `origin` on, on a map `world` pixels wide.
 function pixels({ xs, ys }, world, origin) {
@@ -43,20 +43,31 @@ export const Basemap = L.GridLayer.extend({
     L.setOptions(this, options);
     this.land = data.land.map(decode);
     this.borders = data.borders.map(decode);
+    this.inks = null; // colours of the theme, asked for once: each question makes the browser compute the page's style
   },
 
-  createTile(coords) {
+  redraw() {
+    this.inks = null;
+    return L.GridLayer.prototype.redraw.call(this);
+  },
+
+  // Each tile is drawn in a task of its own: the page answers between them.
+  createTile(coords, done) {
     const { x: width, y: height } = this.getTileSize();
     const ratio = devicePixelRatio || 1;
     const canvas = Object.assign(document.createElement('canvas'), { width: width * ratio, height: height * ratio });
     const pen = canvas.getContext('2d');
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.lineJoin = 'round';
-    this.drawTile(pen, coords, L.bounds([0, 0], [width, height]));
+    setTimeout(() => {
+      this.drawTile(pen, coords, L.bounds([0, 0], [width, height]));
+      done(null, canvas);
+    });
     return canvas;
   },
 
   drawTile(pen, coords, tile) {
+    this.inks ??= { land: colour('--land'), border: colour('--border'), coast: colour('--coast') };
     const box = L.bounds(tile.min.subtract([MARGIN, MARGIN]), tile.max.add([MARGIN, MARGIN]));
     const origin = coords.scaleBy(this.getTileSize());
     const world = L.CRS.EPSG3857.scale(coords.z);
@@ -67,11 +78,11 @@ export const Basemap = L.GridLayer.extend({
 
     pen.beginPath();
     for (const ring of land) this.tracePath(pen, L.PolyUtil.clipPolygon(ring, box));
-    pen.fillStyle = colour('--land');
+    pen.fillStyle = this.inks.land;
     pen.fill('evenodd');
 
-    this.strokeLines(pen, seen(this.borders), box, '--border');
-    this.strokeLines(pen, land, box, '--coast', world, origin);
+    this.strokeLines(pen, seen(this.borders), box, this.inks.border);
+    this.strokeLines(pen, land, box, this.inks.coast, world, origin);
   },
 
   tracePath(pen, points) {
@@ -80,7 +91,7 @@ export const Basemap = L.GridLayer.extend({
   },
 
   // Segments along the antimeridian, where rings are cut, and along the pole are no coast.
-  strokeLines(pen, lines, box, name, world, origin) {
+  strokeLines(pen, lines, box, ink, world, origin) {
     const cut = ({ x }) => world && (Math.abs(x + origin.x) < 1e-3 || Math.abs(x + origin.x - world) < 1e-3);
     pen.beginPath();
     for (const line of lines) {
@@ -91,7 +102,7 @@ export const Basemap = L.GridLayer.extend({
         pen.lineTo(part[1].x, part[1].y);
       }
     }
-    pen.strokeStyle = colour(name);
+    pen.strokeStyle = ink;
     pen.lineWidth = 1;
     pen.stroke();
   },
