@@ -59,6 +59,11 @@ void RingLeaves::check_leaf(const Node &node, size_t position, size_t leaf, uint
     const auto name = [&] { return " in leaf " + std::to_string(leaf) + " of node " + std::to_string(position); };
     expect(node.leaf[leaf].head < shape_.slots && count + node.leaf[leaf].ghosts <= shape_.slots, "head ",
            node.leaf[leaf].head, ", count ", count, ", ghosts ", node.leaf[leaf].ghosts, name());
+    const HeadTimes times(shape_, node.leaf[leaf]);
+    expect(node.leaf[leaf].known <= std::min(count, LeafShape::most_times), node.leaf[leaf].known,
+           " times are at hand, of ", count, " entries", name());
+    for (size_t i = 0; i < node.leaf[leaf].known; ++i)
+        expect(times.says(i, time_at(node, leaf, i)), "the time at hand of entry ", i, " is another's", name());
     for (size_t i = 0; i < count; ++i) {
         const uint64_t key = key_at(node, leaf, i);
         const Bytes record = record_at(node, leaf, i);

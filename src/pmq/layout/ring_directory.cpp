@@ -56,7 +56,7 @@ void Node::insert(size_t i, uint64_t separator, LeafMemory memory) noexcept {
     open_gap(leaf, i, leaves);
     ordered = (ordered & bits_below(i)) | (ordered & ~bits_below(i)) << 1 | uint64_t{1} << i;
     separators[i] = separator;
-    leaf[i] = {memory, version, INT64_MAX, 0, 0, 0, 0};
+    leaf[i] = {memory, version, INT64_MAX, 0, 0, 0, 0, 0};
     ++leaves;
 }
 

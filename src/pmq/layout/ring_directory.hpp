@@ -17,7 +17,8 @@ struct LeafEntry {
     uint16_t head;   // the slot of the oldest entry
     uint16_t count;  // entries
     uint16_t ghosts; // slots before the head that must not be written yet: a reader may still see their entries
-    uint16_t spare;
+    uint8_t known;   // the times of so many first entries are at hand (ring_times.hpp),
+    uint8_t unit;    // in this unit
 };
 static_assert(sizeof(LeafEntry) == 32);
 

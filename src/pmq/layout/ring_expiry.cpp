@@ -11,7 +11,7 @@
 namespace locus::pmq {
 namespace {
 
-constexpr double rounds_per_refill = 8;
+constexpr unsigned rounds_per_refill = 8;
 constexpr double most_for_time = 32;   // leaves per call that are looked at beyond what the records inserted pay for
 constexpr size_t most_alone = 1 << 16; // records of a store for whose removals readers may wait
 
@@ -24,14 +24,14 @@ void RingLeaves::collect(size_t position, int64_t cutoff, Eviction *eviction, bo
     const Node &node = *directory()[position];
     for (size_t i = 0; i < node.leaves; ++i)
         if (node.leaf[i].oldest < cutoff)
-            __builtin_prefetch(record_at(node, i, 0) + format_.time_at);
+            HeadTimes(shape_, node.leaf[i]).prefetch();
     for (size_t i = 0; i < node.leaves; ++i) {
         if (node.leaf[i].count == 0)
             continue;
         Cut cut(position, i);
         if (node.leaf[i].oldest < cutoff) {
             if (node.is_ordered(i))
-                cut.prefix = first_not_before(format_, shape_, node, i, cutoff);
+                cut.prefix = first_not_before(format_, shape_, node, i, cutoff, edition_->moment.now);
             else
                 mark_expired(node, i, cutoff, thoroughly, cut);
         }
@@ -134,7 +134,7 @@ void RingLeaves::apply(const Cut &cut) noexcept {
     }
     const LeafMemory old = node.leaf[leaf].memory;
     const uint64_t born = node.leaf[leaf].born;
-    Target rest{alone_ ? old : cut.fresh, alone_ ? node.leaf[leaf].head : size_t{0}};
+    Target rest = target(alone_ ? old : cut.fresh, alone_ ? node.leaf[leaf].head : size_t{0});
     for (size_t i = cut.prefix; i < count; ++i)
         if (!cut.marks[i])
             add(rest, key_at(node, leaf, i), record_at(node, leaf, i));
@@ -147,6 +147,8 @@ void RingLeaves::apply(const Cut &cut) noexcept {
 void RingLeaves::pop(Node &node, size_t leaf, size_t entries) noexcept {
     node.leaf[leaf].head = static_cast<uint16_t>(shape_.slot(node.leaf[leaf].head, entries) % shape_.slots);
     node.leaf[leaf].count = static_cast<uint16_t>(node.leaf[leaf].count - entries);
+    node.leaf[leaf].known =
+        static_cast<uint8_t>(node.leaf[leaf].known - std::min<size_t>(node.leaf[leaf].known, entries));
     node.total -= static_cast<uint32_t>(entries);
     if (!alone_) {
         node.leaf[leaf].ghosts = static_cast<uint16_t>(node.leaf[leaf].ghosts + entries);
@@ -199,8 +201,43 @@ void RingLeaves::tend_nodes(size_t first, size_t nodes, Eviction &eviction, Depa
     std::vector<Cut> cuts = decide(first, nodes, edition_->moment.cutoff, eviction, false);
     const Change change(*this, true);
     remove(cuts, departures);
+    for (size_t i = 0; i < nodes; ++i)
+        note_times(first + i);
     for (size_t i = nodes; i-- > 0;)
         tidy(first + i);
+}
+
+// Write down the times of the entries that expire until the next round comes, and a few more.
+void RingLeaves::note_times(size_t position) {
+    const Moment &moment = edition().moment;
+    if (moment.cutoff == INT64_MIN || !slabs_.keep_times())
+        return;
+    const uint64_t window = static_cast<uint64_t>(moment.now) - static_cast<uint64_t>(moment.cutoff);
+    const auto until = static_cast<int64_t>(static_cast<uint64_t>(moment.cutoff) + window / rounds_per_refill +
+                                            window / (4 * rounds_per_refill));
+    Node &node = own(position);
+    const auto noted = [&](size_t leaf) { return node.leaf[leaf].oldest < until && node.is_ordered(leaf); };
+    for (size_t i = 0; i < node.leaves; ++i) {
+        if (i + 1 < node.leaves && noted(i + 1))
+            for (size_t entry = node.leaf[i + 1].known; entry < LeafShape::most_times; entry += 2)
+                __builtin_prefetch(record_at(node, i + 1, entry) + format_.time_at);
+        if (noted(i))
+            note_times(node, i, until);
+    }
+}
+
+void RingLeaves::note_times(Node &node, size_t leaf, int64_t until) const noexcept {
+    LeafEntry &at = node.leaf[leaf];
+    const uint8_t unit = HeadTimes::unit_for(edition_->moment);
+    if (at.known == 0 || (alone_ && at.unit != unit)) {
+        at.known = 0;
+        at.unit = unit;
+    }
+    int64_t last = at.known > 0 ? time_at(node, leaf, at.known - 1u) : INT64_MIN;
+    for (; last < until && at.known < at.count && at.known + at.ghosts < LeafShape::most_times; ++at.known) {
+        last = time_at(node, leaf, at.known);
+        HeadTimes::write(shape_.times(at.memory), shape_.slot(at.head, at.known), last, at.unit);
+    }
 }
 
 void RingLeaves::sweep(Eviction &eviction, Departures &departures) {

@@ -1,6 +1,7 @@
 // Filling a store that is being made with records in the order of their keys: leaf by leaf, without a split.
 #include "pmq/layout/ring_leaves.hpp"
 
+#include "pmq/eviction.hpp"
 #include "pmq/layout/ring_order.hpp"
 
 #include <algorithm>
@@ -17,8 +18,9 @@ constexpr size_t leaves_together = 21;
 size_t RingLeaves::filled_slots() const noexcept { return shape_.slots / 4 * filled_quarters; }
 size_t RingLeaves::fill_batch() const noexcept { return filled_slots() * leaves_together; }
 
-void RingLeaves::fill(const Batch &batch, Eviction &, Departures &) {
+void RingLeaves::fill(const Batch &batch, Eviction &eviction, Departures &) {
     const Change change(*this, true);
+    edition().moment = eviction.moment(); // the leaves' times are noted for it
     slabs_.prepare();
     if (ages_.wanted())
         ages_.reserve(batch.count);
@@ -52,13 +54,13 @@ void RingLeaves::fill_leaf(const Batch &batch, size_t begin, size_t end) {
         order.sort();
     Node &node = own(directory().size() - 1);
     const size_t leaf = node.leaves - 1u;
-    Target target{node.leaf[leaf].memory};
+    Target filled = target(node.leaf[leaf].memory);
     for (size_t n = 0; n < end - begin; ++n) {
         const size_t i = begin + (sorts ? order.number(n) : n);
-        add(target, batch.keys[i], batch.records + i * format_.size);
+        add(filled, batch.keys[i], batch.records + i * format_.size);
     }
-    install(node, leaf, target);
-    edition().stored += target.count;
+    install(node, leaf, filled);
+    edition().stored += filled.count;
 }
 
 // An empty leaf behind the last one, for keys from `key` on.

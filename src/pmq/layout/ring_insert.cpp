@@ -119,7 +119,9 @@ void RingLeaves::take_back(const Batch &batch, size_t done) noexcept {
             }
             --spot.leaf;
         }
-        --node->leaf[spot.leaf].count;
+        LeafEntry &leaf = node->leaf[spot.leaf];
+        --leaf.count;
+        leaf.known = static_cast<uint8_t>(std::min<size_t>(leaf.known, leaf.count));
         --node->total;
     }
 }
@@ -205,7 +207,7 @@ void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
     Node &node = *directory()[position];
     const LeafMemory old = node.leaf[leaf].memory;
     const uint64_t born = node.leaf[leaf].born;
-    Target low{left, alone_ ? node.leaf[leaf].head : size_t{0}}, high{right, 0};
+    Target low = target(left, alone_ ? node.leaf[leaf].head : size_t{0}), high = target(right);
     for (size_t i = 0, count = node.leaf[leaf].count; i < count; ++i) {
         const uint64_t key = key_at(node, leaf, i);
         add(key < pivot ? low : high, key, record_at(node, leaf, i));
@@ -224,13 +226,13 @@ void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
 // A copy of a leaf without its ghosts.
 void RingLeaves::relocate(size_t position, size_t leaf) {
     expect_garbage(1);
-    Target target{slabs_.take(), 0};
+    Target copy = target(slabs_.take());
     Node &node = *directory()[position];
     for (size_t i = 0, count = node.leaf[leaf].count; i < count; ++i)
-        add(target, key_at(node, leaf, i), record_at(node, leaf, i));
-    counters_.moved += target.count;
+        add(copy, key_at(node, leaf, i), record_at(node, leaf, i));
+    counters_.moved += copy.count;
     retire(node.leaf[leaf].memory, node.leaf[leaf].born);
-    install(node, leaf, target);
+    install(node, leaf, copy);
 }
 
 void RingLeaves::add(Target &target, uint64_t key, Bytes record) const noexcept {
@@ -240,6 +242,10 @@ void RingLeaves::add(Target &target, uint64_t key, Bytes record) const noexcept 
     std::byte *to = shape_.record(target.memory, slot);
     if (to != record)
         copy_record(to, record, format_.size);
+    if (target.known == target.count && target.known < LeafShape::most_times && target.unit != HeadTimes::no_unit) {
+        HeadTimes::write(shape_.times(target.memory), slot, time, target.unit);
+        ++target.known;
+    }
     target.ordered = target.ordered && time >= target.newest;
     target.newest = time;
     target.oldest = std::min(target.oldest, time);
@@ -255,6 +261,8 @@ void RingLeaves::install(Node &node, size_t leaf, const Target &target) noexcept
     node.leaf[leaf].head = static_cast<uint16_t>(target.head);
     node.leaf[leaf].count = static_cast<uint16_t>(target.count);
     node.leaf[leaf].ghosts = 0;
+    node.leaf[leaf].known = target.known;
+    node.leaf[leaf].unit = target.unit;
     node.leaf[leaf].oldest = target.oldest;
     node.set_ordered(leaf, target.ordered);
     node.total += node.leaf[leaf].count;

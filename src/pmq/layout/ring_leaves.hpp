@@ -7,6 +7,7 @@
 #include "pmq/layout/layout.hpp"
 #include "pmq/layout/ring_ages.hpp"
 #include "pmq/layout/ring_slabs.hpp"
+#include "pmq/layout/ring_times.hpp"
 #include "pmq/layout/ring_versions.hpp"
 
 #include <bitset>
@@ -60,7 +61,10 @@ private:
     // A leaf that is being written: entries from `head` on.
     struct Target {
         LeafMemory memory;
-        size_t head = 0, count = 0;
+        size_t head;
+        uint8_t unit; // of the times at hand
+        size_t count = 0;
+        uint8_t known = 0;
         int64_t oldest = INT64_MAX, newest = INT64_MIN;
         bool ordered = true;
     };
@@ -105,6 +109,9 @@ private:
     uint64_t pivot(const Node &node, size_t leaf) const noexcept;
     void partition(size_t position, size_t leaf, uint64_t pivot);
     void relocate(size_t position, size_t leaf);
+    Target target(LeafMemory memory, size_t head = 0) const noexcept {
+        return {memory, head, slabs_.keep_times() ? HeadTimes::unit_for(edition_->moment) : HeadTimes::no_unit};
+    }
     void add(Target &target, uint64_t key, Bytes record) const noexcept;
     void install(Node &node, size_t leaf, const Target &target) noexcept;
 
@@ -123,6 +130,8 @@ private:
     void pop(Node &node, size_t leaf, size_t entries) noexcept;
     double elapsed() noexcept;
     void tend(size_t records, Eviction &eviction, Departures &departures);
+    void note_times(size_t position);
+    void note_times(Node &node, size_t leaf, int64_t until) const noexcept;
     void tend_nodes(size_t first, size_t nodes, Eviction &eviction, Departures &departures);
     void sweep_all(const Moment &moment, Eviction &eviction, Departures &departures);
 

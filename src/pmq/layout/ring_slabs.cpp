@@ -10,26 +10,32 @@ namespace locus::pmq {
 namespace {
 
 constexpr size_t huge_page = size_t{2} << 20;
-constexpr size_t most_slab_bytes = size_t{8} << 20;
+constexpr size_t page = 4096;
+constexpr size_t most_slab_bytes = LeafShape::slab_span;
 constexpr size_t first_slab_bytes = size_t{256} << 10;
 constexpr size_t ahead = 128; // leaves kept ready
 
-// Memory aligned to a huge page where it is at least that large: map more, and cut the ends off.
+// Memory aligned to the span of slabs: map more, and cut the ends off.
 std::byte *map_pages(size_t bytes) {
-    const size_t alignment = bytes >= huge_page ? huge_page : 0;
+    constexpr size_t alignment = LeafShape::slab_span;
+    bytes = (bytes + page - 1) / page * page;
     void *mapped = mmap(nullptr, bytes + alignment, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (mapped == MAP_FAILED)
         throw std::bad_alloc();
     auto *base = static_cast<std::byte *>(mapped);
-    if (alignment == 0)
-        return base;
     const size_t before = (alignment - reinterpret_cast<uintptr_t>(base) % alignment) % alignment;
     if (before > 0)
         munmap(base, before);
     if (alignment > before)
         munmap(base + before + bytes, alignment - before);
-    madvise(base + before, bytes, MADV_HUGEPAGE);
+    if (bytes >= huge_page)
+        madvise(base + before, bytes, MADV_HUGEPAGE);
     return base + before;
+}
+
+// What the times of the leaves of a slab take, in whole pages.
+size_t lead_bytes(size_t slab_bytes, size_t leaf_bytes) noexcept {
+    return (slab_bytes / leaf_bytes * LeafShape::times_bytes + page - 1) / page * page;
 }
 
 } // namespace
@@ -50,7 +56,8 @@ Slabs::Slab &Slabs::add_slab() {
     while (bytes * 2 <= largest_slab_ && bytes < bytes_ / 4)
         bytes *= 2;
     auto slab = std::make_unique<Slab>();
-    slab->leaves = bytes / leaf_bytes_;
+    slab->lead = keep_times() ? lead_bytes(bytes, leaf_bytes_) : 0;
+    slab->leaves = (bytes - slab->lead) / leaf_bytes_;
     slab->free.reserve(slab->leaves);
     slabs_.reserve(slabs_.size() + 1);
     slab->base = map_pages(bytes);
@@ -79,6 +86,9 @@ Slabs::Slab *Slabs::with_room() noexcept {
     return best;
 }
 
+// Small slabs have no room to spare.
+bool Slabs::keep_times() const noexcept { return smallest_slab_ >= first_slab_bytes; }
+
 LeafMemory Slabs::take() {
     if (!current_ || current_->full() || current_ == vacating_) {
         current_ = with_room();
@@ -96,16 +106,17 @@ LeafMemory Slabs::take() {
         slab.free.pop_back();
     } else {
         number = slab.fresh++;
-        slab.touched = std::max(slab.touched, slab.fresh * leaf_bytes_);
+        slab.touched = std::max(slab.touched, slab.lead + slab.fresh * leaf_bytes_);
     }
     ++slab.used;
     ++used_;
-    return slab.base + number * leaf_bytes_;
+    return slab.base + slab.lead + number * leaf_bytes_;
 }
 
 void Slabs::give_back(LeafMemory leaf) noexcept {
     Slab &slab = *slab_of(leaf);
-    slab.free.push_back(static_cast<uint16_t>(static_cast<size_t>(leaf - slab.base) / leaf_bytes_)); // reserved
+    slab.free.push_back(
+        static_cast<uint16_t>(static_cast<size_t>(leaf - slab.base - slab.lead) / leaf_bytes_)); // reserved
     --slab.used;
     --used_;
 }
@@ -116,7 +127,6 @@ bool Slabs::vacating(LeafMemory leaf) const noexcept {
 
 void Slabs::touch(Slab &slab, size_t bytes) noexcept {
     const size_t end = std::min(slab.touched + bytes, slab.bytes);
-    constexpr size_t page = 4096;
     for (size_t at = (slab.touched + page - 1) / page * page; at < end; at += page)
         *reinterpret_cast<volatile char *>(slab.base + at) = 0;
     slab.touched = end;
@@ -137,7 +147,7 @@ void Slabs::prepare() noexcept {
     }
     for (const auto &slab : slabs_) {
         if (slab->touched < slab->bytes && slab->bytes >= huge_page &&
-            slab->touched < std::max(slab->fresh * leaf_bytes_ + ahead * leaf_bytes_, huge_page)) {
+            slab->touched < std::max(slab->lead + (slab->fresh + ahead) * leaf_bytes_, huge_page)) {
             touch(*slab, huge_page);
             return; // one step a batch
         }

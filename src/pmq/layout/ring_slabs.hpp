@@ -27,6 +27,9 @@ public:
     bool vacating(LeafMemory leaf) const noexcept;
     bool any_vacating() const noexcept { return vacating_ != nullptr; }
 
+    // Is there room for the times of leaves (LeafShape::times)?
+    bool keep_times() const noexcept;
+
     // Under pressure no free leaf is worth keeping.
     void press(bool pressed) noexcept { pressed_ = pressed; }
 
@@ -40,6 +43,7 @@ private:
     struct Slab {
         std::byte *base = nullptr;
         size_t bytes = 0, leaves = 0, used = 0;
+        size_t lead = 0;    // bytes before the first leaf, for times
         size_t fresh = 0;   // leaves from here on have never been used
         size_t touched = 0; // bytes from the base on that have been touched
         std::vector<uint16_t> free;

@@ -50,12 +50,12 @@ void RingLeaves::merge_leaves(size_t position, size_t leaf) {
             return;
         }
     }
-    Target target{slabs_.take()};
-    merge_in_time(target, node, leaf, leaf + 1);
-    counters_.moved += target.count;
+    Target both = target(slabs_.take());
+    merge_in_time(both, node, leaf, leaf + 1);
+    counters_.moved += both.count;
     ++counters_.rebalances;
     retire(node.leaf[leaf].memory, node.leaf[leaf].born);
-    install(node, leaf, target);
+    install(node, leaf, both);
     node.total -= node.leaf[leaf + 1].count;
     node.leaf[leaf + 1].count = 0;
     drop_leaf(node, leaf + 1);

@@ -2,23 +2,35 @@
 #include "pmq/layout/ring_view.hpp"
 
 #include "pmq/layout/ring_order.hpp"
+#include "pmq/layout/ring_times.hpp"
 
 #include <algorithm>
 
 namespace locus::pmq {
+namespace {
 
-size_t first_not_before(const RecordFormat &format, const LeafShape &shape, const Node &node, size_t leaf,
-                        int64_t time) noexcept {
+constexpr uint64_t ahead = 8; // leaves whose memory is fetched before it is looked at
+
+} // namespace
+
+size_t first_not_before(const RecordFormat &format, const LeafShape &shape, const Node &node, size_t leaf, int64_t time,
+                        int64_t now) noexcept {
+    const size_t count = node.leaf[leaf].count;
+    size_t begin = 0, end = count; // all before `begin` are older; `end` is not, or is the end
+    if (const HeadTimes times(shape, node.leaf[leaf]); times.tell(time, now)) {
+        times.narrow(time, begin, end);
+        if (end == node.leaf[leaf].known)
+            end = count;
+    }
     const auto older = [&](size_t entry) {
         return format.time(shape.record(node.leaf[leaf].memory, shape.slot(node.leaf[leaf].head, entry))) < time;
     };
-    const size_t count = node.leaf[leaf].count;
-    size_t begin = 0, step = 1; // all before `begin` are older
-    while (begin + step <= count && older(begin + step - 1)) {
+    size_t step = 1;
+    while (begin + step <= end && older(begin + step - 1)) {
         begin += step;
         step *= 2;
     }
-    size_t end = std::min(begin + step - 1, count); // `end` is not older, or the end
+    end = std::min(begin + step - 1, end);
     while (begin < end) {
         const size_t middle = (begin + end) / 2;
         if (older(middle))
@@ -68,13 +80,25 @@ bool RingView::within(size_t position, size_t leaf, const KeyRange &keys) const 
     return edition_.directory[position]->separators[leaf] >= keys.lo && highest(position, leaf) < keys.hi;
 }
 
+// Fetch what first_not_before will look at.
+void RingView::prefetch(uint64_t number, int64_t from) const noexcept {
+    const LeafEntry &entry = edition_.directory[position(number)]->leaf[leaf(number)];
+    if (entry.oldest < from)
+        HeadTimes(shape_, entry).prefetch();
+}
+
 uint64_t RingView::count(const Place &place, const KeyRange &keys, int64_t from) const {
     uint64_t total = 0;
     if (place.empty())
         return 0;
     const auto count_leaves = [&](uint64_t first, uint64_t last) {
-        for (uint64_t at = first; at <= last; ++at)
+        for (uint64_t at = first; at < std::min(first + ahead, last + 1); ++at)
+            prefetch(at, from);
+        for (uint64_t at = first; at <= last; ++at) {
+            if (at + ahead <= last)
+                prefetch(at + ahead, from);
             total += count_leaf(position(at), leaf(at), keys, from);
+        }
     };
     for (size_t at = position(place.first); at <= position(place.last); ++at) {
         const Node &node = *edition_.directory[at];
@@ -98,9 +122,11 @@ uint64_t RingView::count_leaf(size_t position, size_t leaf, const KeyRange &keys
         if (all_young)
             return count;
         if (node.is_ordered(leaf))
-            return count - first_not_before(format_, shape_, node, leaf, from);
+            return count - first_not_before(format_, shape_, node, leaf, from, edition_.moment.now);
     }
-    const size_t begin = !all_young && node.is_ordered(leaf) ? first_not_before(format_, shape_, node, leaf, from) : 0;
+    const size_t begin = !all_young && node.is_ordered(leaf)
+                             ? first_not_before(format_, shape_, node, leaf, from, edition_.moment.now)
+                             : 0;
     const bool ask_time = !all_young && !node.is_ordered(leaf);
     uint64_t total = 0;
     for (size_t i = begin; i < count; ++i) {
@@ -138,7 +164,7 @@ size_t RingView::skip_older(const Node &node, size_t leaf, int64_t from, Block &
     if (node.leaf[leaf].oldest >= from || !node.is_ordered(leaf))
         return 0;
     block.oldest = from;
-    return first_not_before(format_, shape_, node, leaf, from);
+    return first_not_before(format_, shape_, node, leaf, from, edition_.moment.now);
 }
 
 // A ring is one block, or two.

@@ -6,9 +6,10 @@
 
 namespace locus::pmq {
 
-// The first entry of a leaf in order of time that is not older than `time`. Few are, as a rule: search from the head.
-size_t first_not_before(const RecordFormat &format, const LeafShape &shape, const Node &node, size_t leaf,
-                        int64_t time) noexcept;
+// The first entry of a leaf in order of time that is not older than `time`; no entry is younger than `now`. Few are
+// older, as a rule: search from the head.
+size_t first_not_before(const RecordFormat &format, const LeafShape &shape, const Node &node, size_t leaf, int64_t time,
+                        int64_t now) noexcept;
 
 class RingView : public View {
 public:
@@ -51,6 +52,7 @@ private:
     uint64_t last_below(uint64_t key, const Place &outer) const noexcept;
     bool within(size_t position, size_t leaf, const KeyRange &keys) const noexcept;
     uint64_t count_leaf(size_t position, size_t leaf, const KeyRange &keys, int64_t from) const noexcept;
+    void prefetch(uint64_t number, int64_t from) const noexcept;
     uint64_t highest(size_t position, size_t leaf) const noexcept;
     size_t skip_older(const Node &node, size_t leaf, int64_t from, Block &block) const noexcept;
     bool scan_ring(size_t position, size_t leaf, const KeyRange &keys, int64_t from,
