@@ -37,7 +37,9 @@ BoxRegion::Cells BoxRegion::Cells::between(int64_t first, int64_t last, bool ope
     };
     const int64_t inner_first = open_first ? 0 : first + 2;
     const int64_t inner_last = open_last ? last_cell : last - 2;
-    Cells cells{spread(first - 1), spread(last + 1), 1, 0};
+    Cells cells;
+    cells.outer_first = spread(first - 1);
+    cells.outer_last = spread(last + 1);
     if (inner_first <= inner_last) {
         cells.inner_first = spread(inner_first);
         cells.inner_last = spread(inner_last);
@@ -51,7 +53,7 @@ Relation BoxRegion::Cells::relate(uint64_t first, uint64_t last) const noexcept 
     return first >= inner_first && last <= inner_last ? Relation::inside : Relation::edge;
 }
 
-BoxRegion::BoxRegion(const locus_box &box) : box_(box), rows_{}, columns_{} {
+BoxRegion::BoxRegion(const locus_box &box) : box_(box) {
     check_degrees(box.south, 90, "box.south");
     check_degrees(box.north, 90, "box.north");
     check_degrees(box.west, 180, "box.west");

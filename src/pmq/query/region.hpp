@@ -1,7 +1,7 @@
 // Where a query looks: a set of places that can be compared with quadrants of the map.
 #pragma once
 
-#include "core/zcurve.hpp"
+#include "pmq/query/many_keys.hpp"
 
 #include <locus/pmq.h>
 
@@ -37,18 +37,17 @@ public:
     Relation relate(uint64_t key) const noexcept override { return relate_quickly(key); }
     bool contains(double latitude, double longitude) const noexcept override;
     const BoxRegion *as_box() const noexcept override { return this; }
+    // For asking about many keys of a range.
+    KeysOfBox among(const KeyRange &range) const noexcept { return {range, rows_, {columns_[0], columns_[1]}}; }
     // relate(key), with no branch to mispredict.
     Relation relate_quickly(uint64_t key) const noexcept {
         const uint64_t x = key & key_x_mask, y = (key & key_y_mask) >> 1;
-        const unsigned column = std::max(columns_[0].rank(x), parts_ > 1 ? columns_[1].rank(x) : 0);
+        const unsigned column = std::max(columns_[0].rank(x), columns_[1].rank(x));
         return static_cast<Relation>(std::min(column, rows_.rank(y)));
     }
 
 private:
-    // Columns or rows of the map, bits spread as in keys (x at the even bits, y shifted down to them): outside
-    // [outer_first, outer_last] there is no record of the box, inside [inner_first, inner_last] there are no others.
-    struct Cells {
-        uint64_t outer_first, outer_last, inner_first, inner_last;
+    struct Cells : MapCells {
         static Cells between(int64_t first, int64_t last, bool open_first, bool open_last) noexcept;
         Relation relate(uint64_t first, uint64_t last) const noexcept;
         // The number of relate(cell, cell).

@@ -4,6 +4,9 @@
 #include "pmq/layout/layout.hpp"
 #include "pmq/query/ranges.hpp"
 
+#include <algorithm>
+#include <bit>
+
 namespace locus::pmq {
 
 // What a record has to be asked, given where it was found. Cheap questions first, the caller's filter last.
@@ -29,30 +32,49 @@ public:
     size_t count(const Block &block) const noexcept {
         if (all_of(block))
             return block.count;
-        if (box_ && only_place_matters(block))
-            return count_in_box(block);
         size_t total = 0;
-        for (size_t i = 0; i < block.count; ++i)
-            total += (*this)(block, block.entry(i));
+        for_each(block, [&](size_t) {
+            ++total;
+            return true;
+        });
         return total;
+    }
+    // Call `use(entry)` for every accepted entry of the block until it returns false; false if it did.
+    template <typename Use>
+    bool for_each(const Block &block, Use &&use) const {
+        if (box_ && only_place_matters(block) && block.key_stride == sizeof(uint64_t) && !block.order)
+            return for_each_in_box(block, use);
+        const bool all = all_of(block);
+        for (size_t i = 0; i < block.count; ++i) {
+            const size_t entry = block.entry(i);
+            if ((all || (*this)(block, entry)) && !use(entry))
+                return false;
+        }
+        return true;
     }
 
 private:
     bool only_place_matters(const Block &block) const noexcept {
         return !late_ && !selection_.filter && selection_.times.from <= block.oldest;
     }
-    size_t count_in_box(const Block &block) const noexcept {
-        size_t total = 0;
-        for (size_t i = 0; i < block.count; ++i) {
-            const size_t entry = block.entry(i);
-            const uint64_t key = block.key(entry);
-            const bool looked_for = block.within || keys_.contains(key);
-            const Relation relation = looked_for ? box_->relate_quickly(key) : Relation::outside;
-            total += relation == Relation::inside;
-            if (relation == Relation::edge) [[unlikely]]
-                total += in_region(block.record(entry));
+    // The keys lie side by side: many are asked at once.
+    template <typename Use>
+    bool for_each_in_box(const Block &block, Use &&use) const {
+        const KeysOfBox question = box_->among(block.within ? KeyRange{} : keys_);
+        const auto *keys = reinterpret_cast<const uint64_t *>(block.keys);
+        KeyMarks marks;
+        for (size_t begin = 0; begin < block.count; begin += most_keys) {
+            many_keys().mark(question, keys + begin, std::min(block.count - begin, most_keys), marks);
+            for (size_t word = 0; word < marks.inside.size(); ++word) {
+                for (uint64_t left = marks.inside[word] | marks.edge[word]; left != 0; left &= left - 1) {
+                    const size_t entry = begin + 64 * word + static_cast<size_t>(std::countr_zero(left));
+                    const bool edge = (marks.edge[word] & left & -left) != 0;
+                    if ((!edge || in_region(block.record(entry))) && !use(entry))
+                        return false;
+                }
+            }
         }
-        return total;
+        return true;
     }
     bool place_accepted(uint64_t key, Bytes record) const noexcept {
         if (!region_)
@@ -77,13 +99,7 @@ template <typename Use>
 bool scan_accepted(const View &view, const Selection &selection, const RangeAt &range, Order order, Use &&use) {
     const Acceptance accepted(view, selection, range);
     return view.scan(range.place, range.keys, selection.times.from, order, [&](const Block &block) {
-        const bool all = accepted.all_of(block);
-        for (size_t i = 0; i < block.count; ++i) {
-            const size_t entry = block.entry(i);
-            if ((all || accepted(block, entry)) && !use(block, entry))
-                return false;
-        }
-        return true;
+        return accepted.for_each(block, [&](size_t entry) { return use(block, entry); });
     });
 }
 

@@ -12,6 +12,8 @@
 namespace locus::pmq {
 namespace {
 
+constexpr uint64_t few_bins = 16; // so few that counting the keys below their borders is quicker
+
 class TileCount {
 public:
     TileCount(const View &view, const Selection &live, const Quadrant &tile, unsigned log2_bins,
@@ -54,7 +56,7 @@ private:
                 return true;
             }
             if (all && places_.by_key()) {
-                add_all(block);
+                add_all(block, range.keys);
                 return true;
             }
             for (size_t i = 0; i < block.count; ++i)
@@ -64,16 +66,52 @@ private:
         });
     }
 
-    void add_all(const Block &block) noexcept {
-        const TileBins places = places_; // counting cannot change it, as the compiler sees
-        uint32_t *bins = bins_.data();
-        for (size_t i = 0; i < block.count; ++i) {
-            uint32_t &bin = bins[places.of(block.key(block.entry(i)))];
-            bin += bin != std::numeric_limits<uint32_t>::max();
+    // Few bins, side by side on the Z-curve: how many keys lie below each border. Many: one by one.
+    void add_all(const Block &block, const KeyRange &keys) noexcept {
+        const uint64_t first = places_.code(std::max(block.lowest, keys.lo));
+        const uint64_t last = places_.code(std::min(block.highest, keys.hi - 1));
+        if (block.key_stride != sizeof(uint64_t))
+            add_singly(block);
+        else if (last - first < few_bins)
+            add_by_borders(block, first, last);
+        else
+            add_by_bins(block);
+    }
+
+    void add_by_borders(const Block &block, uint64_t first, uint64_t last) noexcept {
+        const auto *keys = reinterpret_cast<const uint64_t *>(block.keys);
+        size_t before = 0;
+        for (uint64_t code = first; code < last && before < block.count; ++code) {
+            const size_t below = many_keys().count_below(places_.lowest(code + 1), keys, block.count);
+            if (below > before)
+                add(places_.of_code(code), below - before);
+            before = below;
+        }
+        if (before < block.count)
+            add(places_.of_code(last), block.count - before);
+    }
+
+    void add_by_bins(const Block &block) noexcept {
+        const auto *keys = reinterpret_cast<const uint64_t *>(block.keys);
+        uint64_t where[most_keys];
+        for (size_t begin = 0; begin < block.count; begin += most_keys) {
+            const size_t count = std::min(block.count - begin, most_keys);
+            many_keys().bins(places_.shift(), places_.log2_bins(), keys + begin, count, where);
+            for (size_t i = 0; i < count; ++i)
+                add_one(bins_[where[i]]);
         }
         total_ += block.count;
     }
 
+    void add_singly(const Block &block) noexcept {
+        const TileBins places = places_; // counting cannot change it, as the compiler sees
+        uint32_t *bins = bins_.data();
+        for (size_t i = 0; i < block.count; ++i)
+            add_one(bins[places.of(block.key(block.entry(i)))]);
+        total_ += block.count;
+    }
+
+    static void add_one(uint32_t &bin) noexcept { bin += bin != std::numeric_limits<uint32_t>::max(); }
     void add(size_t bin, uint64_t count) noexcept {
         constexpr uint64_t most = std::numeric_limits<uint32_t>::max();
         bins_[bin] = static_cast<uint32_t>(std::min(most, bins_[bin] + count));

@@ -17,9 +17,13 @@ public:
     bool by_key() const noexcept { return level_ <= key_levels; }
 
     size_t of(uint64_t key, Bytes record) const noexcept { return by_key() ? of(key) : of(record); }
-    // Where by_key().
-    size_t of(uint64_t key) const noexcept {
-        const auto code = static_cast<uint32_t>(key >> 2 * (key_levels - level_));
+    // Where by_key(): a bin's Morton code, the smallest key with it, and its bin.
+    unsigned shift() const noexcept { return 2 * (key_levels - level_); }
+    unsigned log2_bins() const noexcept { return log2_bins_; }
+    uint64_t code(uint64_t key) const noexcept { return key >> shift(); }
+    uint64_t lowest(uint64_t code) const noexcept { return code << shift(); }
+    size_t of(uint64_t key) const noexcept { return of_code(code(key)); }
+    size_t of_code(uint64_t code) const noexcept {
         const uint32_t low = halves[code & 0xFF], high = halves[code >> 8 & 0xFF];
         return at((low & 0xFF) | (high & 0xFF) << 4, low >> 8 | high >> 8 << 4);
     }
