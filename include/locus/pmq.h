@@ -152,8 +152,9 @@ typedef struct locus_polygon {
  * store. */
 typedef int32_t (*locus_filter_fn)(const void *record, void *user);
 
-/* Receives a record, valid during the call, in the store's order. Return 0 to go on; any other value stops the call,
- * which then returns LOCUS_E_STOPPED. Called by the thread that asks; must not throw, longjmp or change the store. */
+/* Receives a record, valid during the call, in the order that was asked for. Return 0 to go on; any other value stops
+ * the call, which then returns LOCUS_E_STOPPED. Called by the thread that asks; must not throw, longjmp or change the
+ * store. */
 typedef int32_t (*locus_visit_fn)(const void *record, void *user);
 
 /* Where a query looks. */
@@ -161,6 +162,10 @@ typedef int32_t (*locus_visit_fn)(const void *record, void *user);
 #define LOCUS_REGION_BOX 1
 #define LOCUS_REGION_CIRCLE 2
 #define LOCUS_REGION_POLYGON 3
+
+/* In which order locus_pmq_read and locus_pmq_visit give records. */
+#define LOCUS_ORDER_KEY 0 /* the store's, (key, arrival) */
+#define LOCUS_ORDER_ANY 1 /* any, as fast as the layout can: ring leaves need not sort */
 
 typedef struct locus_pmq_query {
     uint64_t struct_size;
@@ -180,6 +185,8 @@ typedef struct locus_pmq_query {
      * that many have been handed to the sink or are going to be, and what is handed over behind them was still in the
      * store. So a place that keeps what the sink takes over and a query with `expired` make one answer; default NULL */
     uint64_t *left;
+    uint32_t order;     /* LOCUS_ORDER_, for locus_pmq_read and locus_pmq_visit of a store; default LOCUS_ORDER_KEY */
+    uint32_t reserved0; /* 0 */
 } locus_pmq_query;
 
 /* What makes a record good for locus_pmq_topk: near to a place, and young. */
@@ -264,10 +271,10 @@ LOCUS_API void locus_pmq_snapshot_destroy(locus_pmq_snapshot *snapshot) LOCUS_NO
 LOCUS_API locus_status locus_pmq_count(const locus_pmq *pmq, const locus_pmq_query *query,
                                        uint64_t *count) LOCUS_NOEXCEPT;
 
-/* Copy the live records that `query` selects (NULL: all), in the order (key, arrival), into `records`, which has room
- * for `capacity` of them. `*count` is how many there are, also when the capacity is too small: then the first
- * `capacity` are copied and the status is LOCUS_E_CAPACITY. Errors: LOCUS_E_ARGUMENT. LOCUS_E_STALE. Beside readers and
- * the writer. Since 0.1.
+/* Copy the live records that `query` selects (NULL: all), in the order (key, arrival) unless `query` asks for another,
+ * into `records`, which has room for `capacity` of them. `*count` is how many there are, also when the capacity is too
+ * small: then the first `capacity` are copied and the status is LOCUS_E_CAPACITY. Errors: LOCUS_E_ARGUMENT.
+ * LOCUS_E_STALE. Beside readers and the writer. Since 0.1.
  */
 LOCUS_API locus_status locus_pmq_read(const locus_pmq *pmq, const locus_pmq_query *query, void *records,
                                       size_t capacity, size_t *count) LOCUS_NOEXCEPT;

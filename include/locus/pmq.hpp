@@ -108,6 +108,11 @@ public:
         plain_.expired = 1;
         return *this;
     }
+    /* Records need not come in the store's order, which is quicker. */
+    query &in_any_order() {
+        plain_.order = LOCUS_ORDER_ANY;
+        return *this;
+    }
     /* Ask a snapshot of the store, which must live until the query is asked. */
     query &at(const snapshot &moment) {
         plain_.snapshot = moment.get();

@@ -16,7 +16,7 @@ using locus::require;
 using namespace locus::pmq;
 
 static_assert(sizeof(locus_pmq_options) == 144, "append only; then update the ABI baseline");
-static_assert(sizeof(locus_pmq_query) == 144, "append only; then update the ABI baseline");
+static_assert(sizeof(locus_pmq_query) == 152, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_score) == 48, "append only; then update the ABI baseline");
 static_assert(sizeof(locus_pmq_stats) == 136, "append only; then update the ABI baseline");
 static_assert(LOCUS_KEY_END == locus::key_end);
@@ -215,7 +215,8 @@ locus_status locus_pmq_read(const locus_pmq *pmq, const locus_pmq_query *query, 
         need(count, "count");
         require(records != nullptr || capacity == 0, "records is NULL, capacity is ", capacity);
         const Question question(query);
-        *count = read(*question.view(*pmq), question.selection(), static_cast<std::byte *>(records), capacity);
+        *count = read(*question.view(*pmq), question.selection(), question.order(), static_cast<std::byte *>(records),
+                      capacity);
         if (*count > capacity)
             locus::fail(LOCUS_E_CAPACITY, "capacity is ", capacity, ", there are ", *count, " records");
     });
@@ -227,7 +228,7 @@ locus_status locus_pmq_visit(const locus_pmq *pmq, const locus_pmq_query *query,
         need(pmq, "pmq");
         need(visit, "visit");
         const Question question(query);
-        finished(locus::pmq::visit(*question.view(*pmq), question.selection(), visit, user), "visit");
+        finished(locus::pmq::visit(*question.view(*pmq), question.selection(), question.order(), visit, user), "visit");
     });
 }
 

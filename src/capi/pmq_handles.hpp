@@ -28,6 +28,7 @@ public:
     Question(const Question &) = delete;
     Question &operator=(const Question &) = delete;
     const pmq::Selection &selection() const noexcept { return selection_; }
+    pmq::Order order() const noexcept { return order_; }
     const locus_pmq_snapshot *snapshot() const noexcept { return snapshot_; }
     // What is to be asked; tells the caller how many records had left by then.
     std::shared_ptr<const pmq::View> view(const locus_pmq &pmq) const;
@@ -37,6 +38,7 @@ public:
 private:
     std::unique_ptr<const pmq::Region> region_;
     pmq::Selection selection_;
+    pmq::Order order_ = pmq::Order::key;
     const locus_pmq_snapshot *snapshot_ = nullptr;
     uint64_t *left_ = nullptr; // where the number of records that had left goes
 };

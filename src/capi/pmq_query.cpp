@@ -41,12 +41,15 @@ Question::Question(const locus_pmq_query *query) {
     require(whole.expired <= 1, "query.expired is ", whole.expired, ", not 0 or 1");
     require(whole.time_from <= whole.time_to, "query.time_from is ", whole.time_from, ", after time_to, ",
             whole.time_to);
+    require(whole.order <= LOCUS_ORDER_ANY, "query.order is ", whole.order, ", not a LOCUS_ORDER_");
+    require(whole.reserved0 == 0, "query.reserved0 is ", whole.reserved0, ", not 0");
     region_ = region_of(whole);
     selection_.region = region_.get();
     selection_.times = {whole.time_from, whole.time_to};
     selection_.filter = whole.filter;
     selection_.filter_user = whole.filter_user;
     selection_.expired = whole.expired == 1;
+    order_ = whole.order == LOCUS_ORDER_ANY ? Order::any : Order::key;
     snapshot_ = whole.snapshot;
     left_ = whole.left;
 }

@@ -26,6 +26,7 @@ Question::Question(const locus_pmq_query *query, const RecordFormat &format)
 locus_pmq_query Question::of_store(uint64_t *left) const noexcept {
     locus_pmq_query query = query_;
     query.expired = 1;
+    query.order = LOCUS_ORDER_KEY; // to be merged
     query.left = left;
     return query;
 }

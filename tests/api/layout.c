@@ -175,7 +175,7 @@ int main(void) {
     FIELD(locus_polygon, ring_sizes, 8);
     FIELD(locus_polygon, rings, 16);
 
-    SIZE(locus_pmq_query, 144);
+    SIZE(locus_pmq_query, 152);
     FIELD(locus_pmq_query, struct_size, 0);
     FIELD(locus_pmq_query, region, 8);
     FIELD(locus_pmq_query, expired, 12);
@@ -188,6 +188,8 @@ int main(void) {
     FIELD(locus_pmq_query, circle, 88);
     FIELD(locus_pmq_query, polygon, 112);
     FIELD(locus_pmq_query, left, 136);
+    FIELD(locus_pmq_query, order, 144);
+    FIELD(locus_pmq_query, reserved0, 148);
 
     SIZE(locus_key_range, 24);
     FIELD(locus_key_range, first, 0);

@@ -42,6 +42,7 @@ static void defaults(void) {
     WORKS(locus_pmq_query_init(&query, sizeof query));
     CHECK(query.struct_size == sizeof query && query.region == LOCUS_REGION_ALL && query.expired == 0);
     CHECK(query.time_from == INT64_MIN && query.time_to == INT64_MAX && query.filter == NULL && query.left == NULL);
+    CHECK(query.order == LOCUS_ORDER_KEY && query.reserved0 == 0);
     REFUSES(locus_pmq_query_init(NULL, sizeof query), LOCUS_E_ARGUMENT, "query");
     REFUSES(locus_pmq_query_init(&query, 0), LOCUS_E_ARGUMENT, "size");
 }
@@ -149,6 +150,8 @@ static void bad_queries(locus_pmq *pmq) {
     BAD_QUERY(struct_size = 128, "struct_size");
     BAD_QUERY(region = 99, "region is 99");
     BAD_QUERY(expired = 2, "expired is 2");
+    BAD_QUERY(order = 2, "order is 2");
+    BAD_QUERY(reserved0 = 1, "reserved0 is 1");
     BAD_QUERY(box.south = 50, "south");
     BAD_QUERY(box.south = -90.5, "south");
     BAD_QUERY(box.north = 91, "north");
@@ -370,6 +373,15 @@ static void queries(locus_pmq *pmq) {
     WORKS(locus_pmq_read(pmq, &query, records, 100, &count));
     CHECK(count == 12); /* odd devices 51..73 */
     CHECK(records[0].device % 2 == 1 && records[0].time <= 75 * SECOND);
+    query.order = LOCUS_ORDER_ANY;
+    WORKS(locus_pmq_read(pmq, &query, records, 100, &count));
+    CHECK(count == 12);
+    for (number = 51; number <= 73; number += 2) {
+        const locus_point32 *at = records;
+        while (at < records + 12 && at->device != number)
+            ++at;
+        CHECK(at < records + 12);
+    }
     REFUSES(locus_pmq_read(pmq, &query, records, 5, &count), LOCUS_E_CAPACITY, "capacity is 5");
     CHECK(count == 12);
     REFUSES(locus_pmq_read(pmq, &query, NULL, 0, &count), LOCUS_E_CAPACITY, "capacity is 0");

@@ -39,6 +39,8 @@ export const CONSTANTS = {
   REGION_BOX: 1,
   REGION_CIRCLE: 2,
   REGION_POLYGON: 3,
+  ORDER_KEY: 0,
+  ORDER_ANY: 1,
   KEY_END: 1125899906842624,
   FIELD_DEVICE: 0,
   FIELD_APPLICATION: 1,
@@ -198,7 +200,7 @@ export const STRUCTS = {
     },
   },
   locus_pmq_query: {
-    size: 144,
+    size: 152,
     fields: {
       struct_size: ['uint64_t', 0, 1],
       region: ['uint32_t', 8, 1],
@@ -212,6 +214,8 @@ export const STRUCTS = {
       circle: ['locus_circle', 88, 1],
       polygon: ['locus_polygon', 112, 1],
       left: ['pointer', 136, 1],
+      order: ['uint32_t', 144, 1],
+      reserved0: ['uint32_t', 148, 1],
     },
   },
   locus_pmq_score: {

@@ -55,13 +55,14 @@ function setPolygon(struct, rings) {
  * @returns {Struct}
  */
 export function cQuery(query, record, callback, snapshot) {
-  const { box, circle, polygon, since, until, filter, expired } = query ?? {};
+  const { box, circle, polygon, since, until, filter, expired, anyOrder } = query ?? {};
   if ([box, circle, polygon].filter(Boolean).length > 1) {
     throw new TypeError('a query has one region: a box, a circle or a polygon');
   }
   const struct = options('locus_pmq_query_init', {
     snapshot,
     expired: expired ? 1 : 0,
+    order: anyOrder ? CONSTANTS.ORDER_ANY : CONSTANTS.ORDER_KEY,
     time_from: since === undefined ? undefined : microseconds(since, 'since'),
     time_to: until === undefined ? undefined : microseconds(until, 'until'),
   });

@@ -101,6 +101,8 @@ export interface Query<Value = Point32> {
   until?: Time;
   /** Records that have expired and have not left the store yet, too; not for `erase`. */
   expired?: boolean;
+  /** True: records need not come in the store's order, which is quicker. */
+  anyOrder?: boolean;
 }
 
 /** A query of a Sync call, which may ask a function too. The record that it is shown is valid during the call only. */

@@ -29,6 +29,7 @@ for (const [name, options] of Object.entries(LAYOUTS)) {
     same(await store.read(box), all.filter(inside));
     assert.equal(store.countSync(box), all.filter(inside).length);
     assert.equal(await store.count(), 3000);
+    same(store.readSync({ ...box, anyOrder: true }), all.filter(inside));
     same(store.readSync({ box: [-90, 170, 90, -170] }), all.filter(({ longitude }) => longitude >= 170 || longitude <= -170));
     const middle = { latitude: 10, longitude: 20 };
     same(await store.read({ circle: { ...middle, radius: 3e6 } }), all.filter((record) => metres(middle, record) <= 3e6));

@@ -16,7 +16,7 @@ from ._ffi import ffi
 from ._library import check, lib
 from ._structs import PmqFileInfo, PmqLogStats, PmqRecovery, PmqStats
 from ._values import Array, dtype_of, empty_struct, enum_value, filled, filled_options, microseconds, pointer, readable, writable
-from .constants import E_BUSY, E_CAPACITY, REGION_BOX, REGION_CIRCLE, REGION_POLYGON, Field, Future, Index, Layout, Record, Sync
+from .constants import E_BUSY, E_CAPACITY, ORDER_ANY, REGION_BOX, REGION_CIRCLE, REGION_POLYGON, Field, Future, Index, Layout, Record, Sync
 from .errors import error_for
 
 if TYPE_CHECKING:
@@ -68,6 +68,8 @@ class Query:
         ``filter(record) -> bool``; the record is valid during the call only.
     expired : bool
         Records that have expired and have not left the store yet, too. Not for `Store.erase`.
+    any_order : bool
+        Records need not come in the store's order, which is quicker.
     """
 
     box: Box | tuple[float, float, float, float] | None = None
@@ -77,6 +79,7 @@ class Query:
     until: Time | None = None
     filter: Predicate | None = None
     expired: bool = False
+    any_order: bool = False
 
 
 #: How often a value of a field occurs, and the newest time among those records.
@@ -194,6 +197,8 @@ class Asked:
             self.c.time_from = microseconds(asked.since)
         if asked.until is not None:
             self.c.time_to = microseconds(asked.until)
+        if asked.any_order:
+            self.c.order = ORDER_ANY
         if asked.filter is not None:
             self.callbacks = Callbacks(filter=asked.filter, record=OneRecord(dtype))
             self.c.filter, self.c.filter_user = _on_filter, self.callbacks.handle

@@ -30,6 +30,7 @@ def test_regions_and_times(filled):
     box = locus.Query(box=locus.Box(-30, -20, 50, 70))
     same(store.read(box), records[inside])
     assert store.count(box) == inside.sum() and len(store) == 3000
+    same(store.read(locus.Query(box=box.box, any_order=True)), records[inside])
     across = locus.Query(box=(-90, 170, 90, -170))
     same(store.read(across), records[(lon >= 170) | (lon <= -170)])
     same(store.read(locus.Query(circle=(10, 20, 3e6))), records[metres(10, 20, lat, lon) <= 3e6])

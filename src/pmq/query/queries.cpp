@@ -17,24 +17,32 @@ uint64_t count(const View &view, const Selection &selection) {
     return total;
 }
 
-size_t read(const View &view, const Selection &selection, std::byte *records, size_t capacity) {
+size_t read(const View &view, const Selection &selection, Order order, std::byte *records, size_t capacity) {
     const size_t size = view.format().size;
     const Selection live = selection.at(view.moment());
     size_t found = 0;
     for_each_range(view, live.region, [&](const RangeAt &range) {
-        return scan_accepted(view, live, range, Order::key, [&](const Block &block, size_t entry) {
-            if (found < capacity)
-                copy_record(records + found * size, block.record(entry), size);
-            ++found;
-            return true;
+        const Acceptance accepted(view, live, range);
+        return view.scan(range.place, range.keys, live.times.from, order, [&](const Block &block) {
+            if (accepted.all_of(block) && !block.order && block.record_stride == size) { // as it stands
+                const size_t room = found < capacity ? std::min(block.count, capacity - found) : 0;
+                std::copy_n(block.records, room * size, records + found * size);
+                found += block.count;
+                return true;
+            }
+            return accepted.for_each(block, [&](size_t entry) {
+                if (found < capacity)
+                    copy_record(records + found * size, block.record(entry), size);
+                ++found;
+                return true;
+            });
         });
     });
     return found;
 }
 
-bool visit(const View &view, const Selection &selection, locus_visit_fn visit, void *user) {
-    return for_each_record(view, selection, Order::key,
-                           [&](uint64_t, Bytes record) { return visit(record, user) == 0; });
+bool visit(const View &view, const Selection &selection, Order order, locus_visit_fn visit, void *user) {
+    return for_each_record(view, selection, order, [&](uint64_t, Bytes record) { return visit(record, user) == 0; });
 }
 
 } // namespace locus::pmq

@@ -46,11 +46,9 @@ public:
         return found;
     }
 
-    std::size_t read(const locus_box &box, std::span<Record> out) override {
-        const locus_pmq_query query = box_query(box);
-        std::size_t found = 0;
-        need(locus_pmq_read(pmq_.get(), &query, out.data(), out.size(), &found));
-        return found;
+    std::size_t read(const locus_box &box, std::span<Record> out) override { return read(box, out, LOCUS_ORDER_ANY); }
+    std::size_t read_sorted(const locus_box &box, std::span<Record> out) override {
+        return read(box, out, LOCUS_ORDER_KEY);
     }
 
     void tile(const TileId &tile, std::vector<uint32_t> &bins) override {
@@ -75,6 +73,13 @@ public:
     std::size_t bytes() override { return stats().bytes; }
 
 private:
+    std::size_t read(const locus_box &box, std::span<Record> out, uint32_t order) {
+        locus_pmq_query query = box_query(box);
+        query.order = order;
+        std::size_t found = 0;
+        need(locus_pmq_read(pmq_.get(), &query, out.data(), out.size(), &found));
+        return found;
+    }
     locus_pmq_stats stats() const {
         locus_pmq_stats stats{};
         stats.struct_size = sizeof stats;

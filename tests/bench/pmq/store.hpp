@@ -27,8 +27,11 @@ public:
     /// Take many records at once, where only what comes after them is timed.
     virtual void load(std::span<const Record> records, int64_t now) { insert(records, now); }
     virtual uint64_t count(const locus_box &box) = 0;
-    /// Copy the records of a box into `out`, which has room for all of them; their number.
+    /// Copy the records of a box into `out`, which has room for all of them; their number. In whichever order is
+    /// quickest,
     virtual std::size_t read(const locus_box &box, std::span<Record> out) = 0;
+    /// or in that of the keys: that of peers, whose records lie in it.
+    virtual std::size_t read_sorted(const locus_box &box, std::span<Record> out) { return read(box, out); }
     virtual uint64_t size() = 0;
     /// Memory held, where the store knows better than malloc; 0: it does not.
     virtual std::size_t bytes() { return 0; }

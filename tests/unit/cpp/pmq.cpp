@@ -35,6 +35,7 @@ TEST(CppPmq, QueriesMatchAPlainList) {
     EXPECT_EQ(store.count(), 5000u);
     EXPECT_EQ(store.count(query().in(box)), uint64_t(wanted));
     EXPECT_EQ(store.read(query().in(box)).size(), size_t(wanted));
+    EXPECT_EQ(store.read(query().in(box).in_any_order()).size(), size_t(wanted));
     EXPECT_EQ(store.count(query().between(noon + 10, noon + 19)), 10u);
     const auto third = [](const locus_point32 &r) { return r.device == 3; };
     EXPECT_EQ(store.count(query().where(third)), uint64_t(std::count_if(records.begin(), records.end(), third)));

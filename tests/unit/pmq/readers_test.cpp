@@ -83,7 +83,7 @@ Figures figures_of(const pmq::View &view) {
         bool ordered = true;
     } seen;
     pmq::visit(
-        view, {},
+        view, {}, pmq::Order::key,
         [](const void *record, void *user) -> int32_t {
             auto &s = *static_cast<Seen *>(user);
             locus_point32 r;

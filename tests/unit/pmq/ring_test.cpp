@@ -25,7 +25,8 @@ uint64_t key(const locus_point32 &r) { return key_of(r.latitude, r.longitude); }
 
 Records read_all(const View &view) {
     Records records(count(view, {}));
-    EXPECT_EQ(read(view, {}, reinterpret_cast<std::byte *>(records.data()), records.size()), records.size());
+    EXPECT_EQ(read(view, {}, Order::key, reinterpret_cast<std::byte *>(records.data()), records.size()),
+              records.size());
     return records;
 }
 
@@ -130,6 +131,27 @@ TEST_F(RingWindow, WanderingWindowKeepsItsMemory) {
             after_one = store->stats().bytes;
     }
     EXPECT_LT(store->stats().bytes, after_one * 5 / 4);
+}
+
+// The leaves' times of what expires next, under a clock that goes on by leaps and bounds, and beside a reader.
+TEST_F(RingWindow, CountsFromAnyTimeOn) {
+    std::shared_ptr<const View> held;
+    for (int64_t now = 0, step = 0; now < 150000; now += random() % 40 == 0 ? 1500 : 50, ++step) {
+        insert(cloud(100, now, step % 2000 < 1000 ? 0 : 10), now);
+        if (step % 50 == 0)
+            held = step % 100 == 0 ? store->view() : nullptr;
+        if (step % 20 != 0)
+            continue;
+        Selection selection;
+        for (int i = 0; i < 4; ++i) {
+            selection.times.from = now - static_cast<int64_t>(random() % (i == 0 ? 20001 : 20000 + now / 4));
+            const auto counted = std::count_if(model.begin(), model.end(),
+                                               [&](const locus_point32 &r) { return r.time >= selection.times.from; });
+            ASSERT_EQ(count(*store->view(), selection), static_cast<uint64_t>(counted));
+        }
+        if (step % 200 == 0)
+            compare();
+    }
 }
 
 TEST_F(RingWindow, LateRecordsKeepTheMemorySteady) {

@@ -199,6 +199,14 @@ void TrackedStore::compare_query(const locus_pmq_query &query) {
     ASSERT_EQ(seen.size(), expected.size());
     for (size_t i = 0; i < seen.size(); ++i)
         ASSERT_EQ(seen[i].id, expected[i].id);
+    locus_pmq_query unordered = query;
+    unordered.order = LOCUS_ORDER_ANY;
+    std::multiset<uint64_t> seen_ids, expected_ids;
+    for (const Item &item : read(&unordered))
+        seen_ids.insert(item.id);
+    for (const Item &item : expected)
+        expected_ids.insert(item.id);
+    ASSERT_EQ(seen_ids, expected_ids);
 }
 
 namespace {

@@ -76,6 +76,8 @@ fn main() {
     println!("locus_pmq_query.circle {}", offset!(locus_pmq_query, circle));
     println!("locus_pmq_query.polygon {}", offset!(locus_pmq_query, polygon));
     println!("locus_pmq_query.left {}", offset!(locus_pmq_query, left));
+    println!("locus_pmq_query.order {}", offset!(locus_pmq_query, order));
+    println!("locus_pmq_query.reserved0 {}", offset!(locus_pmq_query, reserved0));
     println!("locus_pmq_score {}", core::mem::size_of::<locus_pmq_score>());
     println!("locus_pmq_score.struct_size {}", offset!(locus_pmq_score, struct_size));
     println!("locus_pmq_score.latitude {}", offset!(locus_pmq_score, latitude));

@@ -178,6 +178,8 @@ pub struct locus_pmq_query {
     pub circle: locus_circle,
     pub polygon: locus_polygon,
     pub left: *mut u64,
+    pub order: u32,
+    pub reserved0: u32,
 }
 zeroed!(locus_pmq_query);
 

@@ -112,6 +112,13 @@ impl<'q, R: Record> Query<'q, R> {
         self
     }
 
+    /// Records need not come in the store's order, which is quicker.
+    #[must_use]
+    pub fn in_any_order(mut self) -> Self {
+        self.plain.order = sys::LOCUS_ORDER_ANY;
+        self
+    }
+
     /// Of a snapshot of the store instead of the present.
     #[must_use]
     pub fn at(mut self, snapshot: &'q Snapshot) -> Self {

@@ -78,6 +78,12 @@ fn answers_as_a_plain_list_does() {
         let total: u32 = store.tile([0, 0, 0], 4, &Query::new()).unwrap().iter().sum();
         let sum: f64 = store.weighted_tile([0, 0, 0], 4, &Query::new(), |_| 0.5).unwrap().iter().sum();
         assert_eq!((u64::from(total), sum * 2.0), (counts.values().sum(), f64::from(total)));
+        let devices = |query: Query| {
+            let mut found: Vec<u16> = store.read(&query).unwrap().iter().map(|record| record.device).collect();
+            found.sort_unstable();
+            found
+        };
+        assert_eq!(devices(Query::new().in_any_order()), devices(Query::new()));
         assert!(store.count(&Query::new().expired()).unwrap() >= store.stats().unwrap().records);
         assert!(matches!(store.erase(&Query::new().expired()), Err(Error::Argument(text)) if text.contains("expired")));
         let erased = store.erase(&Query::new().within(BOX)).unwrap();
