@@ -23,7 +23,8 @@ struct KeysOfBox {
     std::array<MapCells, 2> columns;
 };
 
-constexpr size_t most_keys = 512; // of one question
+constexpr size_t most_keys = 512; // of one question,
+constexpr size_t worthwhile = 32; // fewer than so many are asked quicker one by one
 
 // Bit i: key i lies in the range, and the places with that key all lie in the box, or perhaps.
 struct KeyMarks {

@@ -42,7 +42,8 @@ public:
     // Call `use(entry)` for every accepted entry of the block until it returns false; false if it did.
     template <typename Use>
     bool for_each(const Block &block, Use &&use) const {
-        if (box_ && only_place_matters(block) && block.key_stride == sizeof(uint64_t) && !block.order)
+        const bool many = block.count >= worthwhile && block.key_stride == sizeof(uint64_t) && !block.order;
+        if (many && box_ && only_place_matters(block))
             return for_each_in_box(block, use);
         const bool all = all_of(block);
         for (size_t i = 0; i < block.count; ++i) {

@@ -70,7 +70,7 @@ private:
     void add_all(const Block &block, const KeyRange &keys) noexcept {
         const uint64_t first = places_.code(std::max(block.lowest, keys.lo));
         const uint64_t last = places_.code(std::min(block.highest, keys.hi - 1));
-        if (block.key_stride != sizeof(uint64_t))
+        if (block.count < worthwhile || block.key_stride != sizeof(uint64_t))
             add_singly(block);
         else if (last - first < few_bins)
             add_by_borders(block, first, last);
