@@ -34,9 +34,9 @@ typedef struct locus_weights_options {
     uint32_t method;      /* LOCUS_METHOD_; default LOCUS_METHOD_SIBSON */
     uint32_t max_per_row; /* keep only this many largest weights of a row (the seed added first on ties) and normalise
                              them again; default LOCUS_ALL_SEEDS */
-    uint64_t batch_bytes; /* most scratch memory of a call, beside the rows themselves, >= 1 MiB; a call needs at least
-                             one batch of 16 queries per thread and takes fewer threads rather than more memory;
-                             default 1 GiB */
+    uint64_t batch_bytes; /* most scratch memory of a call, beside the rows themselves, >= 1 MiB; a call takes fewer
+                             threads rather than more memory, and where the surroundings of a batch of queries do not
+                             fit, natural neighbours are searched query by query; default 1 GiB */
     locus_progress_fn progress; /* kept, and called by locus_weights_update too; default NULL */
     void *progress_user;
 } locus_weights_options;

@@ -62,6 +62,9 @@ public:
 
     uint64_t last() const { return last_; }
 
+    // Begin again with keys from 0 on; the queue must be empty.
+    void rewind() { last_ = 0; }
+
 private:
     static constexpr unsigned levels = 11;
 

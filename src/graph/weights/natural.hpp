@@ -1,4 +1,5 @@
-// The natural-neighbour methods, Sibson and Laplace: every query as one more seed of the diagram, sixteen at a time.
+// The natural-neighbour methods, Sibson and Laplace: every query as one more seed of the diagram, sixteen at a
+// time, or alone where they are few.
 #pragma once
 
 #include "core/progress.hpp"
@@ -22,7 +23,7 @@ struct NaturalJob {
     std::span<const uint64_t> rows;   // the rows to compute; all where empty
 };
 
-// Piles that hold the rows. Throws LOCUS_E_MEMORY where `bytes` do not suffice for one thread, LOCUS_E_STOPPED.
+// Piles that hold the rows. Throws LOCUS_E_MEMORY where `bytes` do not suffice for one query, LOCUS_E_STOPPED.
 std::vector<RowPile> natural_rows(const NaturalJob &job, Progress &progress);
 
 // The same on the backend of the field's graph: Sibson's weights have kernels, and where the GPU was not asked for by

@@ -50,25 +50,33 @@ Plan::Plan(const Grid &grid, std::span<const uint64_t> voxels, std::span<const u
         return std::tie(a.key, a.query.voxel, a.query.row) < std::tie(b.key, b.query.voxel, b.query.row);
     });
     queries_.reserve(keyed.size());
-    for (size_t i = 0; i < keyed.size(); ++i) {
-        const auto [x, y, z] = grid.place(keyed[i].query.voxel);
-        const bool new_tile = i == 0 || keyed[i].key.tile != keyed[i - 1].key.tile;
-        if (new_tile)
+    for (size_t first = 0, next = 0; first < keyed.size(); first = next) {
+        while (next < keyed.size() && keyed[next].key == keyed[first].key)
+            queries_.push_back(keyed[next++].query);
+        const auto [x, y, z] = grid.place(queries_[first].voxel);
+        if (first == 0 || keyed[first].key.tile != keyed[first - 1].key.tile)
             tiles_.push_back({{{x, y, z}, {1, 1, 1}}, batches_.size(), 0});
-        Tile &tile = tiles_.back();
-        const std::array<uint64_t, 3> place = {x, y, z};
+        add_block(grid, first, next - first);
+    }
+}
+
+// The queries of a block join the tile's last batch where there is room for all of them.
+void Plan::add_block(const Grid &grid, uint64_t first, uint64_t count) {
+    Tile &tile = tiles_.back();
+    for (uint64_t i = first; i < first + count; ++i) {
+        const auto place = grid.place(queries_[i].voxel);
         for (unsigned a = 0; a < 3; ++a) {
             const uint64_t end = std::max(tile.box.origin[a] + tile.box.extent[a], place[a] + 1);
             tile.box.origin[a] = std::min(tile.box.origin[a], place[a]);
             tile.box.extent[a] = end - tile.box.origin[a];
         }
-        if (new_tile || keyed[i].key != keyed[i - 1].key || batches_.back().count == batch_lanes) {
-            batches_.push_back({i, 0});
-            ++tile.count;
-        }
-        ++batches_.back().count;
-        queries_.push_back(keyed[i].query);
     }
+    if (tile.count != 0 && batches_.back().count + count <= batch_lanes) {
+        batches_.back().count += count;
+        return;
+    }
+    for (uint64_t taken = 0; taken < count; taken += batch_lanes, ++tile.count)
+        batches_.push_back({first + taken, std::min<uint64_t>(count - taken, batch_lanes)});
 }
 
 } // namespace locus::graph

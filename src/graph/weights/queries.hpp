@@ -14,7 +14,7 @@ struct Query {
     uint64_t row; // where its weights go
 };
 
-// Up to sixteen queries from one block of 4 x 2 x 2 voxels.
+// Up to sixteen queries from blocks of 4 x 2 x 2 voxels, of several where each has few.
 struct QueryBatch {
     uint64_t first, count; // into the queries
 };
@@ -36,8 +36,14 @@ public:
     std::span<const Query> queries(const QueryBatch &batch) const {
         return {queries_.data() + batch.first, batch.count};
     }
+    std::span<const Query> queries(const Tile &tile) const {
+        const QueryBatch &first = batches_[tile.first], &last = batches_[tile.first + tile.count - 1];
+        return {queries_.data() + first.first, last.first + last.count - first.first};
+    }
 
 private:
+    void add_block(const Grid &grid, uint64_t first, uint64_t count);
+
     std::vector<Query> queries_;
     std::vector<QueryBatch> batches_;
     std::vector<Tile> tiles_;

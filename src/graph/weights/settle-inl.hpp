@@ -12,7 +12,7 @@ public:
 
     LOCUS_INLINE void run() {
         changed_rows_ = s_.fresh_rows; // the starts are news to the first sweep and to the second
-        for (bool forward = true; !s_.fresh_rows.empty(); forward = !forward) {
+        for (bool forward = true; !s_.fresh_rows.empty() && pulls_ < s_.most_pulls; forward = !forward) {
             forward ? sweep<true>() : sweep<false>();
             keep_changes();
             changed_rows_ = Hull{};
@@ -96,9 +96,11 @@ private:
             span.add(s_.fresh[other]);
             span.add(s_.changed[other]);
         }
+        ++pulls_;
         if (span.empty())
             return false;
         const size_t first = inner(span.first - 1, 0), last = inner(span.last + 1, 0);
+        pulls_ += last - first;
         Span &changed = s_.changed[row];
         if constexpr (Forward) {
             size_t end = last;
@@ -161,6 +163,7 @@ private:
 
     Settle<Word> &s_;
     Hull changed_rows_;
+    uint64_t pulls_ = 0;
 };
 
 template <typename Word>

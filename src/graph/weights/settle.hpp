@@ -69,11 +69,12 @@ struct Settle {
     Span *changed = nullptr;       // per row: what this sweep changed; at first the starts
     Span *touched_spans = nullptr; // per row: what any sweep changed
     Hull fresh_rows, touched;
+    uint64_t most_pulls = UINT64_MAX; // sweep no more once so many voxels, or rows without any, were visited
 };
 
 template <typename Word>
 struct SettleKernels {
-    void (*settle)(Settle<Word> &) = nullptr; // sweep from the fresh spans to the fixpoint
+    void (*settle)(Settle<Word> &) = nullptr; // sweep from the fresh spans to the fixpoint, or most_pulls
     void (*mark)(Settle<Word> &) = nullptr;   // note in the touched spans which lanes lie below D
     // In the touched spans, which become empty: stolen = 0 and reach back to D, or to the bounds.
     void (*restore_nearest)(Settle<Word> &) = nullptr;

@@ -63,6 +63,13 @@ void SibsonTally::count(const Window<Word> &window) {
     });
 }
 
+template <typename Word>
+void SibsonTally::count(const LoneSearch<Word> &search) {
+    stolen_.clear();
+    for (const auto &stolen : search.stolen())
+        ++stolen_[search.field().label(stolen.voxel)].voxels[0];
+}
+
 void SibsonTally::row(unsigned lane, std::vector<RawShare> &row) const {
     stolen_.each([&](uint32_t label, const Stolen &stolen) {
         if (stolen.voxels[lane] != 0)
@@ -113,6 +120,28 @@ void LaplaceTally::cross(const Window<Word> &window, size_t stolen, size_t kept,
     });
 }
 
+template <typename Word>
+void LaplaceTally::count(const LoneSearch<Word> &search) {
+    border_.clear();
+    const Field &field = search.field();
+    for (const auto &stolen : search.stolen()) {
+        const uint32_t open = field.graph().open_edges(stolen.voxel);
+        for (unsigned axis = 0; axis < 3; ++axis)
+            for (const unsigned number : {backward_face[axis], 25 - backward_face[axis]}) {
+                if ((open >> number & 1) == 0)
+                    continue;
+                const Neighbour &to = field.grid().neighbour(number);
+                const uint64_t other = stolen.voxel + static_cast<uint64_t>(to.step);
+                const uint64_t weight = field.graph().weight(stolen.voxel, to);
+                if (weight == 0 || !field.reached(other) || search.reach_beside(stolen, number) < field.distance(other))
+                    continue;
+                Border &border = border_[field.label(other)];
+                ++border.faces[axis][0];
+                border.shortest[0] = std::min(border.shortest[0], stolen.distance + weight + field.distance(other));
+            }
+    }
+}
+
 void LaplaceTally::row(unsigned lane, std::vector<RawShare> &row) const {
     border_.each([&](uint32_t label, const Border &border) {
         if (border.shortest[lane] == UINT64_MAX)
@@ -126,6 +155,10 @@ void LaplaceTally::row(unsigned lane, std::vector<RawShare> &row) const {
 
 template void SibsonTally::count(const Window<uint32_t> &);
 template void SibsonTally::count(const Window<uint64_t> &);
+template void SibsonTally::count(const LoneSearch<uint32_t> &);
+template void SibsonTally::count(const LoneSearch<uint64_t> &);
+template void LaplaceTally::count(const LoneSearch<uint32_t> &);
+template void LaplaceTally::count(const LoneSearch<uint64_t> &);
 template void LaplaceTally::count(const Window<uint32_t> &);
 template void LaplaceTally::count(const Window<uint64_t> &);
 

@@ -1,6 +1,8 @@
-// What sixteen settled lanes say: per lane the weights of the seeds they stole from.
+// What sixteen settled lanes say: per lane the weights of the seeds they stole from. A query searched alone counts as
+// lane 0.
 #pragma once
 
+#include "graph/weights/lone.hpp"
 #include "graph/weights/rows.hpp"
 #include "graph/weights/window.hpp"
 
@@ -50,6 +52,8 @@ public:
 
     template <typename Word>
     void count(const Window<Word> &window);
+    template <typename Word>
+    void count(const LoneSearch<Word> &search);
     // The weights of one lane, not normalised: its stolen voxels.
     void row(unsigned lane, std::vector<RawShare> &row) const;
 
@@ -67,6 +71,8 @@ public:
 
     template <typename Word>
     void count(const Window<Word> &window);
+    template <typename Word>
+    void count(const LoneSearch<Word> &search);
     void row(unsigned lane, std::vector<RawShare> &row) const;
 
 private:

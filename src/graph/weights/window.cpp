@@ -1,33 +1,12 @@
 // Windows: filled from the field row by row.
 #include "graph/weights/window.hpp"
 
-#include <bit>
-#include <type_traits>
+#include "graph/weights/edges.hpp"
 
 namespace locus::graph {
-
 namespace {
 
 std::array<size_t, 3> padded(const Box &box) { return {box.extent[0] + 2, box.extent[1] + 2, box.extent[2] + 2}; }
-
-// give(number, weight) for the edges from a voxel to the neighbours in `mask`; these are passable, the edges whole.
-template <typename Give>
-void for_weights(const Graph &graph, uint64_t voxel, uint32_t mask, Give give) {
-    const auto weigh = [&](const auto &rule) {
-        for (; mask != 0; mask &= mask - 1) {
-            const Neighbour &to = graph.grid().neighbour(static_cast<unsigned>(std::countr_zero(mask)));
-            if constexpr (std::is_same_v<decltype(rule), const CallerWeights &>) {
-                give(to.number, graph.weight(voxel, to));
-            } else {
-                using R = std::remove_cvref_t<decltype(rule.factor[0])>;
-                const float *materials = &graph.materials()[voxel];
-                give(to.number,
-                     rule(graph.operand().of<R>(materials[0]), graph.operand().of<R>(materials[to.step]), to.kind));
-            }
-        }
-    };
-    std::visit(weigh, graph.weights());
-}
 
 } // namespace
 
@@ -41,10 +20,16 @@ Box widen(const Grid &grid, const Box &box, uint64_t margin) {
 }
 
 template <typename Word>
+uint64_t Window<Word>::voxels(const Box &box) {
+    const auto sizes = padded(box);
+    return sizes[0] * sizes[1] * sizes[2];
+}
+
+template <typename Word>
 uint64_t Window<Word>::bytes(const Box &box) {
     const auto sizes = padded(box);
     const uint64_t rows = sizes[1] * sizes[2];
-    return sizes[0] * rows * (sizeof(Word) * (1 + backward_edges + batch_lanes) + sizeof(uint32_t) + sizeof(uint16_t)) +
+    return voxels(box) * (sizeof(Word) * (1 + backward_edges + batch_lanes) + sizeof(uint32_t) + sizeof(uint16_t)) +
            3 * rows * sizeof(Span);
 }
 
@@ -94,9 +79,11 @@ void Window<Word>::fill_row(const Field &field, uint64_t y, uint64_t z) {
             continue;
         nearest_[first + x] = static_cast<Word>(field.distance(voxel + x));
         label_[first + x] = field.label(voxel + x);
-        // Neighbours behind are filled already: those that are not reached, or not in the box, are far away.
+        // Neighbours behind are filled already: those that are not reached, or not in the box or the grid, are far
+        // away.
         uint32_t joined = 0;
-        const uint32_t open = field.graph().open_edges(voxel + x);
+        const uint32_t open =
+            field.graph().cuts() == nullptr ? field.grid().neighbour_mask() : field.graph().open_edges(voxel + x);
         for (unsigned n = 0; n < backward_edges; ++n)
             if ((open >> n & 1) != 0 && nearest_[first + x + static_cast<size_t>(run_.step[n])] < far_away<Word>)
                 joined |= 1u << n;
@@ -154,6 +141,16 @@ bool Window<Word>::too_small(const Grid &grid) const {
                 return true;
         }
     return false;
+}
+
+template <typename Word>
+void Window<Word>::restore(const SettleKernels<Word> &kernels) {
+    bounded_ ? kernels.restore_bound(run_) : kernels.restore_nearest(run_);
+    if (run_.fresh_rows.empty())
+        return;
+    // The sweeps ended before the fixpoint.
+    std::fill_n(run_.fresh, sizes_[1] * sizes_[2], Span{});
+    run_.fresh_rows = Hull{};
 }
 
 template class Window<uint32_t>;

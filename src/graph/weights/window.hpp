@@ -15,7 +15,8 @@ Box widen(const Grid &grid, const Box &box, uint64_t margin);
 template <typename Word>
 class Window {
 public:
-    // Bytes a window of this box takes.
+    // What a window of this box holds, and the bytes that takes.
+    static uint64_t voxels(const Box &box);
     static uint64_t bytes(const Box &box);
 
     // Fill the window with the field's voxels in `box`. Throws std::bad_alloc; the window is then empty.
@@ -48,16 +49,18 @@ public:
     void bound(const std::array<Word, batch_lanes> &bounds);
     // Start lane `lane` at a voxel, which is reached at `distance`, unless its word is no larger already.
     void start(size_t local, unsigned lane, Word distance = 0);
-    // Run all started lanes to their fixpoint.
-    void settle(const SettleKernels<Word> &kernels) { kernels.settle(run_); }
+    // Run all started lanes to their fixpoint; false where that takes more than about `most_pulls` visits of voxels.
+    bool settle(const SettleKernels<Word> &kernels, uint64_t most_pulls = UINT64_MAX) {
+        run_.most_pulls = most_pulls;
+        kernels.settle(run_);
+        return run_.fresh_rows.empty();
+    }
     // Let stolen() say which lanes lie below the distance to the nearest seed.
     void mark(const SettleKernels<Word> &kernels) { kernels.mark(run_); }
     // The touched voxels reach the edge of the box where the grid goes on.
     bool too_small(const Grid &grid) const;
     // Forget the lanes.
-    void restore(const SettleKernels<Word> &kernels) {
-        bounded_ ? kernels.restore_bound(run_) : kernels.restore_nearest(run_);
-    }
+    void restore(const SettleKernels<Word> &kernels);
     // visit(first, last) for the touched part of every row, widened by `margin` voxels and rows: local numbers.
     template <typename Visit>
     void for_touched(uint32_t margin, Visit &&visit) const;

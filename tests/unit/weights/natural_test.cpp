@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace locus::graph {
@@ -92,6 +93,62 @@ TEST(Natural, WindowsGrowAndMemoryIsBounded) {
     } catch (const Error &error) {
         EXPECT_EQ(error.status(), LOCUS_E_MEMORY);
     }
+}
+
+// Calls of one query, of two and of some: searches alone, and batches over several blocks.
+void expect_as_defined_in_parts(const Solved &solved, uint32_t method, uint64_t every) {
+    const auto all = all_voxels(solved);
+    for (const uint64_t size : {1u, 2u, 7u, 40u})
+        for (uint64_t first = 0; first + size <= all.size(); first += every * size) {
+            const std::vector<uint64_t> voxels(all.begin() + static_cast<ptrdiff_t>(first),
+                                               all.begin() + static_cast<ptrdiff_t>(first + size));
+            expect_as_defined(solved, fast_rows(solved, method, voxels, simd_best()), method, voxels);
+        }
+}
+
+TEST(Natural, FewQueries) {
+    auto narrow = options_for(37, 12, 9), wide = narrow;
+    narrow.word_bits = LOCUS_WORD_32;
+    wide.word_bits = LOCUS_WORD_64;
+    wide.scale = 1e8;
+    for (const auto &options : {narrow, wide})
+        for (const uint32_t method : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE}) {
+            Solved solved(options, noise(37 * 12 * 9, 14, 0.2), 9, 15);
+            const std::vector<uint64_t> cut = {5, 700, 1234, 2000};
+            const std::vector<uint16_t> masks(cut.size(), 0x1fff);
+            solved.graph.cut_edges(cut, masks);
+            solved.solve();
+            expect_as_defined_in_parts(solved, method, 15);
+        }
+}
+
+// The middle of rods one voxel thick, from one seed to another. Sweeps follow a helix a quarter of a turn at a time,
+// and a zigzag across z a voxel at a time: batches are given up.
+void expect_along_a_rod(const locus_graph_options &options, const std::vector<uint64_t> &rod) {
+    std::vector<float> material(options.dims[0] * options.dims[1] * options.dims[2],
+                                std::numeric_limits<float>::quiet_NaN());
+    for (const uint64_t voxel : rod)
+        material[voxel] = 1 + static_cast<float>(voxel % 3);
+    Solved solved(options, material, 1, 16);
+    solved.sources = {{rod.front(), 0, 0}, {rod.back(), 0, 1}};
+    solved.solve();
+    const std::vector<uint64_t> voxels(rod.begin() + static_cast<ptrdiff_t>(rod.size() / 2 - 40),
+                                       rod.begin() + static_cast<ptrdiff_t>(rod.size() / 2 + 40));
+    for (const uint32_t method : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE})
+        expect_as_defined(solved, fast_rows(solved, method, voxels, simd_best()), method, voxels);
+}
+
+TEST(Natural, ThinWindingRods) {
+    std::vector<uint64_t> helix, zigzag;
+    for (uint64_t x = 0; x < 300; ++x) {
+        const auto y = static_cast<uint64_t>(std::lround(4 + 4 * std::cos(0.3 * static_cast<double>(x))));
+        const auto z = static_cast<uint64_t>(std::lround(4 + 4 * std::sin(0.3 * static_cast<double>(x))));
+        helix.push_back(x + 300 * (y + 9 * z));
+    }
+    expect_along_a_rod(options_for(300, 9, 9), helix);
+    for (uint64_t y = 0; y < 4000; ++y)
+        zigzag.push_back(y + 4000 * (y % 2));
+    expect_along_a_rod(options_for(1, 4000, 2), zigzag);
 }
 
 TEST(Natural, LongDistancesTakeWideLanes) {
