@@ -5,12 +5,21 @@
 #include <algorithm>
 
 namespace locus::pmq {
+namespace {
+
+// Neighbours are merged that together fill less than this part of a leaf. A window of constant size splits leaves all
+// the time, so what is merged decides how full they are; what is left free lets a merged leaf take some records before
+// it is split.
+constexpr double merged_part = 7.0 / 8;
+
+} // namespace
 
 void RingLeaves::tidy(size_t position) noexcept {
     try {
+        const auto small = static_cast<size_t>(merged_part * static_cast<double>(shape_.slots));
         for (size_t i = directory()[position]->leaves; i-- > 0;) {
             const Node &node = *directory()[position];
-            if (i + 1 < node.leaves && size_t{node.leaf[i].count} + node.leaf[i + 1].count < shape_.slots / 2)
+            if (i + 1 < node.leaves && size_t{node.leaf[i].count} + node.leaf[i + 1].count < small)
                 merge_leaves(position, i);
             else if (slabs_.vacating(node.leaf[i].memory)) {
                 own(position);
