@@ -7,7 +7,8 @@ FLAVOUR := $(addsuffix .,$(filter-out g++,$(subst -release,,$(OUT:build/%-$(FLAG
 test: unit api headers exports abi memcheck install-test readme ## the quick tests: units, C programs, headers, ABI, Valgrind, installation
 	@echo "make test: all passed"
 
-# Unit tests: one GoogleTest program per folder of tests/unit, linked with the static libraries. UNIT_LIBS_<area>: more it needs.
+# Unit tests: one GoogleTest program per folder of tests/unit, linked with the static libraries. UNIT_LIBS_<area>: more it needs;
+# UNIT_JOBS_<area>: whose packages it is compiled with.
 STATIC_LINK = $(foreach name,$(LIBRARIES),$(STATIC_$(name)) $(LIBS_$(name)) $(BASES_$(name):%=$(OUT)/lib%.a))
 UNIT_AREAS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/unit/*/*.cpp)))))
 UNIT_OBJECTS := $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/*/*.cpp))
@@ -17,7 +18,11 @@ $(UNIT_OBJECTS): EXTRA_CXXFLAGS += -Wno-sign-conversion $(QUICKLY)
 $(UNIT_OBJECTS): | $(call needs,test)
 UNIT_LIBS_pmq := -Wl,--wrap=mmap
 
+UNIT_JOBS_io := io
+UNIT_JOBS_cold := cold
+UNIT_JOBS_examples := demo
 define unit_program
+$(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/$(1)/*.cpp)): | $(call needs,$(UNIT_JOBS_$(1)))
 $(OUT)/tests/unit_$(1): $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/$(1)/*.cpp)) $(foreach name,$(LIBRARIES),$(STATIC_$(name)))
 	@echo "  LD  $$@"
 	@$$(CXX) $$(filter %.o,$$^) $$(UNIT_LIBS_$(1)) $$(STATIC_LINK) -lgtest_main -lgtest $$(LDFLAGS_ALL) -o $$@
