@@ -20,7 +20,7 @@ check-scalar: | $(call needs,test)
 
 # Valgrind over more of the unit tests than the quick tier runs.
 check-memcheck: | $(call needs,test)
-	@+$(MAKE) --no-print-directory MEMCHECK_MS=1600 $(MEMCHECK_UNIT)
+	@+$(MAKE) --no-print-directory MEMCHECK_MS=1200 $(MEMCHECK_UNIT)
 
 # Fuzzing: every tests/fuzz/NAME.cpp is a libFuzzer program over the static libraries; it runs FUZZ_RUNS inputs from a fixed seed,
 # starting with those in tests/fuzz/corpus/NAME if there is such a folder. FUZZ_RUNS_NAME and FUZZ_FLAGS_NAME are its own.

@@ -72,7 +72,7 @@ abi-baseline: $(foreach name,$(LIBRARIES),$(SHARED_$(name))) | $(call needs,test
 
 # Valgrind: no error and no leak in the API tests, in the shortest unit tests of each area (MEMCHECK_MS milliseconds of them), and in
 # MEMCHECK_RUNS, targets that other files add with $(MEMCHECK) in the recipe.
-MEMCHECK_MS ?= 400
+MEMCHECK_MS ?= 200
 # In the API tests what is still reachable at the end counts as a leak; not after dlclose, which leaves libstdc++ in memory.
 MEMCHECK := valgrind --quiet --suppressions=tests/valgrind.supp --leak-check=full --error-exitcode=99 --errors-for-leak-kinds=definite,indirect,possible
 MEMCHECK_REACHABLE := --errors-for-leak-kinds=all --show-leak-kinds=all
