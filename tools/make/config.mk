@@ -18,8 +18,8 @@ VERSION := $(shell awk '/define LOCUS_VERSION_(MAJOR|MINOR|PATCH)/ {v = v s $$3;
 SOVERSION := $(firstword $(subst ., ,$(VERSION)))
 
 WARN := -Wall -Wextra -Wpedantic -Wconversion -Werror
-# Under the sanitizers g++ warns of what cannot happen; the same sources are held to -Werror without them.
-ifneq ($(SANITIZE),)
+# Under the sanitizers g++ (not clang) warns of what cannot happen; the same sources are held to -Werror without them.
+ifneq ($(and $(SANITIZE),$(findstring g++,$(filter-out clang++,$(notdir $(CXX))))),)
 WARN := $(filter-out -Werror,$(WARN))
 endif
 CPPFLAGS_ALL := -Iinclude -Isrc $(CPPFLAGS)

@@ -115,8 +115,8 @@ LeafMemory Slabs::take() {
 
 void Slabs::give_back(LeafMemory leaf) noexcept {
     Slab &slab = *slab_of(leaf);
-    slab.free.push_back(
-        static_cast<uint16_t>(static_cast<size_t>(leaf - slab.base - slab.lead) / leaf_bytes_)); // reserved
+    const size_t offset = static_cast<size_t>(leaf - slab.base) - slab.lead;
+    slab.free.push_back(static_cast<uint16_t>(offset / leaf_bytes_)); // reserved
     --slab.used;
     --used_;
 }

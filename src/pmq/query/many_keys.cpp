@@ -119,21 +119,24 @@ HWY_AFTER_NAMESPACE();
 namespace locus::pmq {
 namespace {
 
-bool between(uint64_t value, uint64_t first, uint64_t last) noexcept { return (value >= first) & (value <= last); }
+// 1 or 0: without branches.
+uint64_t between(uint64_t value, uint64_t first, uint64_t last) noexcept {
+    return uint64_t{value >= first} & uint64_t{value <= last};
+}
 
 void scalar_mark(const KeysOfBox &box, const uint64_t *keys, size_t count, KeyMarks &marks) noexcept {
     const MapCells &rows = box.rows, &west = box.columns[0], &east = box.columns[1];
     marks = {};
     for (size_t i = 0; i < count; ++i) {
         const uint64_t x = keys[i] & key_x_mask, y = (keys[i] & key_y_mask) >> 1;
-        const bool outer =
-            box.range.contains(keys[i]) & between(y, rows.outer_first, rows.outer_last) &
+        const uint64_t outer =
+            uint64_t{box.range.contains(keys[i])} & between(y, rows.outer_first, rows.outer_last) &
             (between(x, west.outer_first, west.outer_last) | between(x, east.outer_first, east.outer_last));
-        const bool inner =
+        const uint64_t inner =
             outer & between(y, rows.inner_first, rows.inner_last) &
             (between(x, west.inner_first, west.inner_last) | between(x, east.inner_first, east.inner_last));
-        marks.inside[i / 64] |= uint64_t{inner} << i % 64;
-        marks.edge[i / 64] |= uint64_t{outer && !inner} << i % 64;
+        marks.inside[i / 64] |= inner << i % 64;
+        marks.edge[i / 64] |= (outer & ~inner) << i % 64;
     }
 }
 
