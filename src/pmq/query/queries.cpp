@@ -25,8 +25,8 @@ size_t read(const View &view, const Selection &selection, Order order, std::byte
         const Acceptance accepted(view, live, range);
         return view.scan(range.place, range.keys, live.times.from, order, [&](const Block &block) {
             if (accepted.all_of(block) && !block.order && block.record_stride == size) { // as it stands
-                const size_t room = found < capacity ? std::min(block.count, capacity - found) : 0;
-                std::copy_n(block.records, room * size, records + found * size);
+                if (found < capacity)
+                    std::copy_n(block.records, std::min(block.count, capacity - found) * size, records + found * size);
                 found += block.count;
                 return true;
             }
