@@ -25,7 +25,7 @@ bench: $(BENCH_PROGRAM) ## run the benchmarks into build/bench.jsonl; ONLY=regex
 
 bench-deps: packages-bench packages-bench-deps ## install the optional peers of the benchmarks: databases, scikit-image
 
-bench-plots: | $(call needs,plots) ## draw figures 3.9 and 3.10 of the thesis from build/bench.jsonl into build
+bench-plots: | $(call needs,plots) ## draw tables 3.2, 3.3 and figures 3.8 to 3.10 of the thesis from build/bench.jsonl into build
 	@/usr/bin/python3 tests/bench/plot.py build/bench.jsonl build
 
 # A small run of a case of each kind: the answers of ours and of the peers that were found are compared.
