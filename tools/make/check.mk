@@ -23,7 +23,8 @@ check-memcheck: | $(call needs,test)
 	@+$(MAKE) --no-print-directory MEMCHECK_MS=1200 $(MEMCHECK_UNIT)
 
 # Fuzzing: every tests/fuzz/NAME.cpp is a libFuzzer program over the static libraries; it runs FUZZ_RUNS inputs from a fixed seed,
-# starting with those in tests/fuzz/corpus/NAME if there is such a folder. FUZZ_RUNS_NAME and FUZZ_FLAGS_NAME are its own.
+# starting with those in tests/fuzz/corpus/NAME if there is such a folder; what it finds worth keeping goes into the first folder it is
+# given, one of the build's, empty each time. FUZZ_RUNS_NAME and FUZZ_FLAGS_NAME are its own.
 FUZZ_RUNS ?= 20000
 FUZZERS := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/*.cpp))
 $(FUZZERS:%=$(OUT)/tests/fuzz/%.cpp.o): | $(call needs,check)
@@ -32,9 +33,9 @@ $(OUT)/tests/fuzz/%: $(OUT)/tests/fuzz/%.cpp.o $(foreach name,$(LIBRARIES),$(STA
 	@$(CXX) $(filter %.o,$^) $(STATIC_LINK) -fsanitize=fuzzer $(LDFLAGS_ALL) -o $@
 .PHONY: $(FUZZERS:%=fuzz-%) fuzz
 $(FUZZERS:%=fuzz-%): fuzz-%: $(OUT)/tests/fuzz/%
-	@mkdir -p $(OUT)/fuzz/$*
+	@rm -rf $(OUT)/fuzz/$* && mkdir -p $(OUT)/fuzz/$*/found
 	$(STAGE) $(FLAVOUR)$@ $< -seed=1 -runs=$(or $(FUZZ_RUNS_$*),$(FUZZ_RUNS)) -timeout=60 -rss_limit_mb=2048 -print_final_stats=1 \
-	    -artifact_prefix=$(OUT)/fuzz/$*/ $(FUZZ_FLAGS_$*) $(wildcard tests/fuzz/corpus/$*)
+	    -artifact_prefix=$(OUT)/fuzz/$*/ $(FUZZ_FLAGS_$*) $(OUT)/fuzz/$*/found $(wildcard tests/fuzz/corpus/$*)
 check-fuzz: | $(call needs,test check)
 	@+$(if $(FUZZERS),$(MAKE) --no-print-directory SANITIZE=fuzzer CXX=clang++ CC=clang $(FUZZERS:%=fuzz-%))
 

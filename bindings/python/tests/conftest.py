@@ -4,6 +4,7 @@ import heapq
 import itertools
 import math
 import signal
+import threading
 
 import numpy as np
 import pytest
@@ -66,3 +67,23 @@ def posts(random, count, dtype, start=NOON):
         records["device"] = random.integers(0, 5, count)
         records["spare"] = np.arange(count) % 65536
     return records
+
+
+def asked_beside_the_writer(store, records, ask):
+    """Insert 200 batches while two threads call `ask` all the time; whether it never returned anything true."""
+    wrong, done = [], threading.Event()
+
+    def keep_asking():
+        while not done.is_set():
+            if ask():
+                wrong.append(1)
+
+    threads = [threading.Thread(target=keep_asking) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for batch in np.split(records, 200):
+        store.insert(batch, int(batch["time"].max()))
+    done.set()
+    for thread in threads:
+        thread.join()
+    return not wrong

@@ -11,7 +11,7 @@ import time
 import locus
 import numpy as np
 import pytest
-from conftest import NOON, posts
+from conftest import NOON, asked_beside_the_writer, posts
 
 
 class Mine(Exception):
@@ -222,22 +222,8 @@ def test_calls_that_exclude_each_other_are_refused():
 def test_readers_beside_the_writer(random):
     store = locus.Store()
     records = posts(random, 20000, locus.POINT32)
-    wrong, done = [], threading.Event()
-
-    def read():
-        while not done.is_set():
-            if store.count() % 100 or len(store.read()) % 100:
-                wrong.append(1)
-
-    threads = [threading.Thread(target=read) for _ in range(2)]
-    for thread in threads:
-        thread.start()
-    for batch in np.split(records, 200):
-        store.insert(batch, int(batch["time"].max()))
-    done.set()
-    for thread in threads:
-        thread.join()
-    assert not wrong and len(store) == 20000
+    assert asked_beside_the_writer(store, records, lambda: store.count() % 100 or len(store.read()) % 100)
+    assert len(store) == 20000
 
 
 def test_objects_end_well_at_exit():

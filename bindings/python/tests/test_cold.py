@@ -11,7 +11,7 @@ from pathlib import Path
 import locus
 import numpy as np
 import pytest
-from conftest import NOON, posts
+from conftest import NOON, asked_beside_the_writer, posts
 
 MINUTE = 60_000_000
 
@@ -197,22 +197,8 @@ def test_other_threads_ask_beside_the_writer(tmp_path, random):
     records = posts(random, 20_000, locus.POINT32)
     tier = locus.Cold(tmp_path / "tier.db", queue_bytes=1 << 20)
     store = locus.Store(horizon=np.timedelta64(3, "m"), cold=tier)
-    wrong, done = [], threading.Event()
-
-    def ask():
-        while not done.is_set():
-            if tier.count(store) % 100 or len(tier.read(store)) % 100:
-                wrong.append(1)
-
-    threads = [threading.Thread(target=ask) for _ in range(2)]
-    for thread in threads:
-        thread.start()
-    for batch in np.split(records, 200):
-        store.insert(batch, int(batch["time"].max()))
-    done.set()
-    for thread in threads:
-        thread.join()
-    assert not wrong and tier.count(store) == 20_000
+    assert asked_beside_the_writer(store, records, lambda: tier.count(store) % 100 or len(tier.read(store)) % 100)
+    assert tier.count(store) == 20_000
 
 
 def test_texts(tmp_path):

@@ -1,3 +1,4 @@
+// The search of one query: Dijkstra's algorithm by buckets, on pages of voxels that are copied as it gets to them.
 #include "graph/weights/lone.hpp"
 
 #include "graph/weights/edges.hpp"
@@ -9,6 +10,7 @@ namespace locus::graph {
 namespace {
 
 constexpr size_t first_slots = 256;
+
 } // namespace
 
 template <typename Word>
