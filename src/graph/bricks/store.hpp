@@ -1,14 +1,10 @@
 // The bricks of a grid in memory: one block, in large pages where the system has them.
 #pragma once
 
+#include "core/pages.hpp"
 #include "graph/bricks/layout.hpp"
 
 #include <memory>
-#include <new>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace locus::bricks {
 
@@ -16,12 +12,7 @@ template <typename Word>
 class Store {
 public:
     explicit Store(const Layout &layout) : layout_(layout), count_(layout.count() + 1) {
-        constexpr std::align_val_t page{size_t{1} << 21};
-        void *raw = ::operator new(bytes(), page);
-        brick_.reset(static_cast<Brick<Word> *>(raw));
-#ifdef __linux__
-        madvise(raw, bytes(), MADV_HUGEPAGE); // a hint: nothing is lost where it fails
-#endif
+        brick_.reset(static_cast<Brick<Word> *>(allocate_pages(bytes())));
     }
 
     const Layout &layout() const { return layout_; }
@@ -46,7 +37,7 @@ public:
 
 private:
     struct Free {
-        void operator()(Brick<Word> *raw) const { ::operator delete (raw, std::align_val_t{size_t{1} << 21}); }
+        void operator()(Brick<Word> *raw) const { free_pages(raw); }
     };
     Layout layout_;
     size_t count_;

@@ -13,6 +13,7 @@ namespace locus::graph {
 namespace {
 
 constexpr uint64_t tile_side = 32;
+constexpr uint64_t piece = 64;       // batches of a tile that a thread takes at a time
 constexpr uint64_t first_margin = 4; // voxels around a tile that its windows hold at least
 
 // What searching costs, measured on a plate of one material: nanoseconds for each voxel that a query steals, alone or
@@ -32,26 +33,33 @@ public:
           tally_(grid_, job.field.graph().layout().labels()) {}
 
     RowPile run() {
-        while (const auto tile = tasks_.take())
-            run_tile(*tile);
+        std::optional<size_t> tile;
+        while (const auto task = tasks_.take(tile)) {
+            if (tile != task->group)
+                begin(plan_.tiles()[task->group]);
+            tile = task->group;
+            run_piece(plan_.tiles()[*tile], *task);
+        }
         return std::move(pile_);
     }
 
 private:
-    void run_tile(size_t number) {
-        const Plan::Tile &tile = plan_.tiles()[number];
+    void begin(const Plan::Tile &tile) { together_ = look(tile) && worth_a_window(tile); }
+
+    void run_piece(const Plan::Tile &tile, const Tasks::Task &task) {
         needed_ = 0;
-        bool together = look(tile) && worth_a_window(tile);
-        for (uint64_t i = tile.first; i < tile.first + tile.count && needed_ == 0 && !tasks_.failed(); ++i) {
+        const uint64_t first = tile.first + task.number * piece;
+        const uint64_t end = std::min(first + piece, tile.first + tile.count);
+        for (uint64_t i = first; i < end && needed_ == 0 && !tasks_.failed(); ++i) {
             const QueryBatch &batch = plan_.batches()[i];
-            together = together && provide(tile);
-            if (!(together && search_together(tile, batch)) && needed_ == 0)
+            together_ = together_ && provide(tile);
+            if (!(together_ && search_together(tile, batch)) && needed_ == 0)
                 search_alone(batch);
             if (needed_ == 0)
                 tasks_.done(on_callers_thread_);
         }
         if (needed_ != 0)
-            tasks_.give_back(number, needed_);
+            tasks_.give_back(task, needed_);
     }
 
     // Search for one of the tile's queries, to learn how much they steal and how far away; false where none of them has
@@ -185,9 +193,10 @@ private:
     LoneSearch<Word> lone_;
     Tally tally_;
     Window<Word> window_;
-    uint64_t margin_ = 0;  // voxels around the tile that its windows hold, until one proves too small
-    uint64_t typical_ = 0; // voxels that a query of the tile steals
-    uint64_t needed_ = 0;  // bytes that the tile needs, where they are more than this thread's
+    bool together_ = false; // the tile's queries are searched in batches
+    uint64_t margin_ = 0;   // voxels around the tile that its windows hold, until one proves too small
+    uint64_t typical_ = 0;  // voxels that a query of the tile steals
+    uint64_t needed_ = 0;   // bytes that the tile needs, where they are more than this thread's
     std::vector<RawShare> row_;
     RowPile pile_;
 };
@@ -195,7 +204,10 @@ private:
 template <typename Word, typename Tally>
 std::vector<RowPile> run(const NaturalJob &job, Progress &progress) {
     const Plan plan(job.field.grid(), job.voxels, job.rows, tile_side);
-    Tasks tasks(plan.tiles().size(), plan.batches().size(), progress);
+    std::vector<size_t> pieces;
+    for (const Plan::Tile &tile : plan.tiles())
+        pieces.push_back((tile.count + piece - 1) / piece);
+    Tasks tasks(pieces, plan.batches().size(), progress);
     std::vector<RowPile> piles;
     std::mutex mutex;
     tasks.run(job.threads, job.bytes, [&](uint32_t rank, uint64_t bytes) {

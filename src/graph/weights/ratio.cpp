@@ -93,8 +93,8 @@ public:
           lane_of_label_(cells.size(), batch_lanes) {}
 
     std::vector<Part> run() {
-        while (const auto batch = tasks_.take()) {
-            lanes_ = std::span(seeds_).subspan(*batch * batch_lanes);
+        while (const auto batch = tasks_.take(0)) {
+            lanes_ = std::span(seeds_).subspan(batch->number * batch_lanes);
             lanes_ = lanes_.first(std::min<size_t>(lanes_.size(), batch_lanes));
             if (search_batch(*batch))
                 tasks_.done(on_callers_thread_);
@@ -105,7 +105,7 @@ public:
 private:
     const Cell &cell(unsigned lane) const { return cells_[lanes_[lane].label]; }
 
-    bool search_batch(size_t number) {
+    bool search_batch(const Tasks::Task &batch) {
         Box box = cell(0).box;
         for (unsigned lane = 1; lane < lanes_.size(); ++lane)
             join(box, cell(lane).box);
@@ -114,7 +114,7 @@ private:
             const uint64_t bytes =
                 Window<Word>::bytes(wide) * 2; // less than twice: the second search keeps the words of the first
             if (bytes > bytes_) {
-                tasks_.give_back(number, bytes);
+                tasks_.give_back(batch, bytes);
                 return false;
             }
             if (!window_.holds(wide))
@@ -225,7 +225,7 @@ private:
     std::vector<unsigned> lane_of_label_; // batch_lanes: none
     std::span<const Source> lanes_;
     Window<Word> window_;
-    std::vector<Word> to_seed_;
+    std::vector<Word, PageAllocator<Word>> to_seed_;
     std::vector<std::pair<size_t, size_t>> touched_; // by the search from the seeds
     std::vector<Part> parts_;
 };
@@ -259,7 +259,7 @@ RowPile run(const RatioJob &job, const std::vector<Cell> &cells, Progress &progr
     const std::vector<Source> seeds = by_place(job.field.grid(), job.seeds, cells);
     const Wanted wanted(job);
     const size_t batches = (seeds.size() + batch_lanes - 1) / batch_lanes;
-    Tasks tasks(batches, batches, progress);
+    Tasks tasks({&batches, 1}, batches, progress);
     std::vector<std::vector<Part>> piles;
     std::mutex mutex;
     tasks.run(job.threads, job.bytes, [&](uint32_t rank, uint64_t bytes) {

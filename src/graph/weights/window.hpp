@@ -2,6 +2,7 @@
 // crosses.
 #pragma once
 
+#include "core/pages.hpp"
 #include "graph/weights/field.hpp"
 #include "graph/weights/settle.hpp"
 
@@ -70,16 +71,19 @@ private:
 
     Box box_{};
     std::array<size_t, 3> sizes_{};
-    std::vector<Word> nearest_;
-    std::vector<uint32_t> label_;
-    std::vector<Word> back_;
+    template <typename T>
+    using Array = std::vector<T, PageAllocator<T>>;
+
+    Array<Word> nearest_;
+    Array<uint32_t> label_;
+    Array<Word> back_;
     struct alignas(64) Batch {
         std::array<Word, batch_lanes> lane;
     };
-    std::vector<Batch> reach_;
+    Array<Batch> reach_;
     Batch bounds_{};
     bool bounded_ = false;
-    std::vector<uint16_t> stolen_;
+    Array<uint16_t> stolen_;
     std::vector<Span> fresh_[2];
     std::vector<Span> touched_;
     Settle<Word> run_{};
