@@ -7,7 +7,35 @@
 #include <thread>
 #include <vector>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 namespace locus {
+namespace {
+
+#ifdef __linux__
+int this_core() { return sched_getcpu(); }
+
+// On a busy machine a new thread may come to lie on its maker's core, and the two take turns there for longer than the
+// whole call. Step aside, once: afterwards the
+// thread may run wherever it might before.
+void leave_core(int core) {
+    cpu_set_t allowed;
+    if (core < 0 || core >= CPU_SETSIZE || this_core() != core || sched_getaffinity(0, sizeof allowed, &allowed) != 0 ||
+        !CPU_ISSET(core, &allowed) || CPU_COUNT(&allowed) < 2)
+        return;
+    cpu_set_t others = allowed;
+    CPU_CLR(core, &others);
+    if (sched_setaffinity(0, sizeof others, &others) == 0)
+        sched_setaffinity(0, sizeof allowed, &allowed);
+}
+#else
+int this_core() { return -1; }
+void leave_core(int) {}
+#endif
+
+} // namespace
 
 uint32_t default_threads() noexcept { return std::max(1u, std::thread::hardware_concurrency()); }
 
@@ -22,12 +50,17 @@ void run_team(uint32_t threads, const std::function<void(uint32_t)> &body) {
             errors[rank] = std::current_exception();
         }
     };
+    const int core = this_core();
+    const auto aside = [&](uint32_t rank) noexcept {
+        leave_core(core);
+        guarded(rank);
+    };
     std::vector<std::thread> team;
     team.reserve(threads - 1);
     uint32_t rank = 1;
     try {
         for (; rank < threads; ++rank)
-            team.emplace_back(guarded, rank);
+            team.emplace_back(aside, rank);
     } catch (const std::exception &) { // no more threads, or no memory: the caller does the other ranks itself
     }
     guarded(0);

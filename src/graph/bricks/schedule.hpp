@@ -5,6 +5,7 @@
 // visited: a visit reads and writes nothing beyond its neighbours, so no two visits touch the same memory.
 #pragma once
 
+#include "core/spin.hpp"
 #include "graph/bricks/store.hpp"
 #include "graph/bricks/visit.hpp"
 
@@ -65,7 +66,7 @@ public:
     // End the visit of `done`, if there was one, waking what it reached, and take the next brick; none when all is at
     // rest.
     std::optional<Taken> next(unsigned thread, const Taken *done, const Visit<Word> *visit) {
-        std::unique_lock lock(mutex_);
+        auto lock = lock_soon(mutex_);
         if (done != nullptr)
             publish(thread, *done, *visit);
         for (;;) {
@@ -73,24 +74,24 @@ public:
                 return std::nullopt;
             if (auto taken = take(thread)) {
                 if (idle_ > 0 && waits())
-                    changed_.notify_one();
+                    tell(false);
                 return taken;
             }
             if (running_ == 0) {
-                changed_.notify_all();
+                tell(true);
                 return std::nullopt;
             }
             ++idle_;
-            changed_.wait(lock);
+            wait(lock);
             --idle_;
         }
     }
 
     // Make every thread's next() return none: a visit has failed or the caller stops.
     void stop() {
-        const std::lock_guard lock(mutex_);
+        const auto lock = lock_soon(mutex_);
         stopped_ = true;
-        changed_.notify_all();
+        tell(true);
     }
 
     size_t bytes() const {
@@ -126,6 +127,25 @@ private:
         Place place;
         std::vector<Entry> waiting;
     };
+
+    // There may be something to do for one of the waiting threads, or for all; under the lock. A visit takes
+    // microseconds: who waits asks for news a while before it sleeps.
+    void tell(bool all) {
+        news_.fetch_add(1, std::memory_order_release);
+        if (asleep_ > 0)
+            all ? changed_.notify_all() : changed_.notify_one();
+    }
+    void wait(std::unique_lock<std::mutex> &lock) {
+        const uint32_t before = news_.load(std::memory_order_relaxed);
+        lock.unlock();
+        const bool told = spin_until([&] { return news_.load(std::memory_order_acquire) != before; });
+        lock = lock_soon(mutex_);
+        if (told || news_.load(std::memory_order_relaxed) != before)
+            return;
+        ++asleep_;
+        changed_.wait(lock);
+        --asleep_;
+    }
 
     Heap &heap_of(size_t brick) { return heap_[brick * heap_.size() / state_.size()]; }
     bool waits() const {
@@ -208,7 +228,8 @@ private:
     std::vector<Heap> heap_{1}; // by thread
     uint64_t arrivals_ = 0, run_ = 0;
     std::atomic<uint64_t> seen_{0};
-    unsigned running_ = 0, idle_ = 0;
+    std::atomic<uint32_t> news_{0};
+    unsigned running_ = 0, idle_ = 0, asleep_ = 0;
     bool stopped_ = false;
 };
 

@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 namespace {
 
 TEST(Team, RunsEveryRankOnce) {
@@ -46,5 +50,21 @@ TEST(Team, SplitsALoopIntoPieces) {
             EXPECT_EQ(times, 1);
     }
 }
+
+#ifdef __linux__
+TEST(Team, ThreadsMayRunWhereTheirCallerMay) {
+    cpu_set_t before;
+    ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+    for (int run = 0; run < 20; ++run)
+        locus::run_team(3, [&](uint32_t rank) {
+            cpu_set_t now;
+            ASSERT_EQ(sched_getaffinity(0, sizeof now, &now), 0);
+            EXPECT_TRUE(CPU_EQUAL(&now, &before)) << rank;
+        });
+    cpu_set_t after;
+    ASSERT_EQ(sched_getaffinity(0, sizeof after, &after), 0);
+    EXPECT_TRUE(CPU_EQUAL(&after, &before));
+}
+#endif
 
 } // namespace
