@@ -297,6 +297,13 @@ uint64_t Graph::smallest_weight() const {
     return each * static_cast<uint64_t>(std::max(1.0, std::rint(smallest_steps(range_.low) / slack)));
 }
 
+uint64_t Graph::largest_weight() const {
+    if (operand_.rule == LOCUS_WEIGHT_CALLER && range_.empty())
+        return layout_.weight_limit();
+    const double most = operand_.rule == LOCUS_WEIGHT_UNIFORM || range_.empty() ? 1 : range_.high;
+    return static_cast<uint64_t>(shares_per_edge()) * (static_cast<uint64_t>(largest_steps(most)) + 1);
+}
+
 locus_graph_info Graph::info() const {
     locus_graph_info info{};
     info.struct_size = sizeof info;

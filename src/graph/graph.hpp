@@ -72,6 +72,8 @@ public:
 
     // A weight that no edge of the graph is below; at least 1.
     uint64_t smallest_weight() const;
+    // A weight that no edge of the graph is above.
+    uint64_t largest_weight() const;
 
     // Edits: everything is checked first, so that a failure changes nothing.
     void set_box(const Box &box, const float *values);

@@ -227,8 +227,11 @@ std::vector<RowPile> run(const NaturalJob &job, Progress &progress) {
 } // namespace
 
 std::vector<RowPile> natural_rows(const NaturalJob &job, Progress &progress) {
-    // Lanes hold distances without labels: 32 bits serve far beyond 32-bit words.
-    return job.field.farthest() < far_away<uint32_t> ? run<uint32_t>(job, progress) : run<uint64_t>(job, progress);
+    // Lanes hold distances without labels: 32 bits serve far beyond 32-bit words. Laplace's faces count also where the
+    // edge across is too long to steal anything.
+    const bool faces = job.method == LOCUS_METHOD_LAPLACE;
+    const uint64_t longest = std::max(job.field.farthest(), faces ? job.field.graph().largest_weight() : 0);
+    return longest < far_away<uint32_t> ? run<uint32_t>(job, progress) : run<uint64_t>(job, progress);
 }
 
 } // namespace locus::graph

@@ -1,6 +1,7 @@
 // Sibson and Laplace rows against their definitions, on every instruction set.
 #include "fields.hpp"
 #include "graph/weights/natural.hpp"
+#include "graph/weights/settle.hpp"
 #include "naive.hpp"
 
 #include <locus/weights.h>
@@ -160,6 +161,27 @@ TEST(Natural, LongDistancesTakeWideLanes) {
     const auto voxels = all_voxels(solved);
     for (const Simd simd : targets())
         expect_as_defined(solved, fast_rows(solved, LOCUS_METHOD_SIBSON, voxels, simd), LOCUS_METHOD_SIBSON, voxels);
+}
+
+// Seeds inside hard grains: no distance is long, but the edges out of the grains are.
+TEST(Natural, LaplaceCountsFacesWithEdgesLongerThanAllDistances) {
+    auto options = options_for(12, 9, 8);
+    options.word_bits = LOCUS_WORD_64;
+    options.scale = 1e8;
+    std::vector<float> material(12 * 9 * 8, 0.01f);
+    const uint64_t grains[] = {3 + 12 * (4 + 9 * 3), 9 + 12 * (4 + 9 * 4)};
+    for (const uint64_t grain : grains)
+        material[grain] = 20;
+    Solved solved(options, material, 1, 18);
+    for (const uint64_t grain : grains)
+        solved.sources.push_back({grain, 0, static_cast<uint32_t>(solved.sources.size())});
+    solved.solve();
+    ASSERT_LT(solved.field().farthest(), uint64_t{1} << 29);
+    ASSERT_GT(solved.graph.weight(grains[0], solved.graph.grid().neighbour(backward_face[0])), uint64_t{1} << 29);
+    const auto voxels = all_voxels(solved);
+    for (const uint32_t method : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE})
+        for (const Simd simd : targets())
+            expect_as_defined(solved, fast_rows(solved, method, voxels, simd), method, voxels);
 }
 
 TEST(Natural, BeyondACutOffNothingIsStolen) {
