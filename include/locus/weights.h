@@ -46,7 +46,8 @@ typedef struct locus_weights_options {
 LOCUS_API locus_status locus_weights_options_init(locus_weights_options *options, size_t size) LOCUS_NOEXCEPT;
 
 /* Compute the rows of all voxels of `box` (NULL: the whole grid), in its order, x fastest, from a solved diagram.
- * The weights keep what they need of the diagram and its graph: those may be destroyed. `options` may be NULL.
+ * The weights keep what they need of the diagram and its graph: those may be destroyed; with the distance ratio also
+ * what every seed weighs before rows are pruned, 8 bytes each, for updates. `options` may be NULL.
  * `*weights` is the caller's, to be ended with locus_weights_destroy; NULL on any error.
  * Errors: LOCUS_E_STATE (the diagram is unsolved, or its graph or seeds changed since), LOCUS_E_ARGUMENT,
  * LOCUS_E_MEMORY, LOCUS_E_STOPPED (by the progress callback). Uses up to the graph's threads. Not beside calls that

@@ -4,22 +4,25 @@
 
 namespace locus::graph {
 
-std::vector<bool> changed_voxels(const Graph &graph, const Words &before, uint64_t version, const Words &now) {
+std::vector<bool> edited_voxels(const Graph &graph, uint64_t version) {
     const Grid &grid = graph.grid();
-    std::vector<bool> changed(grid.voxels());
     const auto edits = graph.edits_since(version);
-    if (!edits) {
-        changed.flip();
-        return changed;
-    }
+    std::vector<bool> edited(grid.voxels(), !edits);
+    if (!edits)
+        return edited;
     for (const Box &box : *edits)
         for (uint64_t z = 0; z < box.extent[2]; ++z)
             for (uint64_t y = 0; y < box.extent[1]; ++y)
                 for (uint64_t x = 0; x < box.extent[0]; ++x)
-                    changed[grid.index(box.origin[0] + x, box.origin[1] + y, box.origin[2] + z)] = true;
+                    edited[grid.index(box.origin[0] + x, box.origin[1] + y, box.origin[2] + z)] = true;
+    return edited;
+}
+
+std::vector<bool> changed_voxels(const Graph &graph, const Words &before, uint64_t version, const Words &now) {
+    std::vector<bool> changed = edited_voxels(graph, version);
     std::visit(
         [&](const auto &a, const auto &b) {
-            for (uint64_t v = 0; v < grid.voxels(); ++v)
+            for (uint64_t v = 0; v < changed.size(); ++v)
                 if (a[v] != b[v])
                     changed[v] = true;
         },

@@ -7,8 +7,10 @@
 
 namespace locus::graph {
 
-// True for the voxels with another word in `now` than in `before`, which was solved at version `version` of the graph,
-// and for those in boxes edited since.
+// True for the voxels in boxes edited since version `version` of the graph; for all where the journal no longer reaches
+// back so far.
+std::vector<bool> edited_voxels(const Graph &graph, uint64_t version);
+// The same, and the voxels with another word in `now` than in `before`, which was solved at that version.
 std::vector<bool> changed_voxels(const Graph &graph, const Words &before, uint64_t version, const Words &now);
 // The same voxels and all their neighbours.
 std::vector<bool> with_neighbours(const Grid &grid, const std::vector<bool> &voxels);

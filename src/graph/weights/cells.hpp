@@ -15,6 +15,7 @@ struct Cell {
         0;             // no shorter than the shortest path from the seed to any voxel that shares a face with the cell
     bool alone = true; // it has no border
 
+    bool empty() const { return box.extent[0] == 0; }
     // Distances beyond have no weight.
     uint64_t support() const { return 2 * farthest; }
 };

@@ -1,6 +1,7 @@
 #include "graph/weights/interpolation.hpp"
 
 #include "graph/weights/affected.hpp"
+#include "graph/weights/concerned.hpp"
 #include "graph/weights/natural.hpp"
 #include "graph/weights/ratio.hpp"
 
@@ -23,6 +24,14 @@ std::vector<uint64_t> voxels_of(const Grid &grid, const Box &box) {
             for (uint64_t x = 0; x < box.extent[0]; ++x)
                 voxels.push_back(grid.index(box.origin[0] + x, box.origin[1] + y, box.origin[2] + z));
     return voxels;
+}
+
+// Where the seeds start, by slot.
+std::vector<Source> sources_of(const Diagram &diagram) {
+    std::vector<Source> sources;
+    for (const Seed &seed : diagram.solved_seeds())
+        sources.push_back({seed.voxel, seed.steps, seed.slot});
+    return sources;
 }
 
 std::vector<uint32_t> ids_by_slot(const Diagram &diagram) {
@@ -68,36 +77,38 @@ void Interpolation::check_diagram() const {
 
 void Interpolation::compute_all() {
     check_diagram();
-    adopt(compute(sources(), {}, nullptr));
+    if (options_.method != LOCUS_METHOD_DISTANCE_RATIO)
+        return adopt(natural({}, nullptr), {});
+    Rows parts = ratio_parts(survey_cells(Field(diagram_->graph(), diagram_->words())), nullptr);
+    Rows rows = ratio_rows(parts, options_.max_per_row);
+    adopt(std::move(rows), std::move(parts));
 }
 
-// Where the diagram's seeds start, by slot.
-std::vector<Source> Interpolation::sources() const {
-    std::vector<Source> sources;
-    for (const Seed &seed : diagram_->solved_seeds())
-        sources.push_back({seed.voxel, seed.steps, seed.slot});
-    return sources;
-}
-
-// The rows with seeds by slot; `seeds` for the distance ratio, those that can weigh in them.
-Rows Interpolation::compute(std::span<const Source> seeds, std::span<const uint64_t> rows, const Rows *base) const {
+// Some rows (all where empty), the others from `base`.
+Rows Interpolation::natural(std::span<const uint64_t> rows, const Rows *base) const {
     Progress progress(options_.progress, options_.progress_user);
     const Graph &graph = diagram_->graph();
     const Field field(graph, diagram_->words());
-    if (options_.method == LOCUS_METHOD_DISTANCE_RATIO) {
-        const RatioJob job{field,   seeds, options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(),
-                           voxels_, rows};
-        const RowPile pile = ratio_rows(job, progress);
-        return assemble(voxels_.size(), {&pile, 1}, base);
-    }
     const NaturalJob job{
         field, options_.method, options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(), voxels_,
         rows};
     return assemble(voxels_.size(), natural_rows_on_backend(job, progress), base);
 }
 
-// Keep rows with seeds by slot, and the diagram they belong to. Nothing is changed when memory runs out.
-void Interpolation::adopt(Rows rows) {
+// What the concerned seeds (null: all) weigh everywhere.
+Rows Interpolation::ratio_parts(const std::vector<Cell> &cells, const std::vector<bool> *concerned) const {
+    Progress progress(options_.progress, options_.progress_user);
+    const Graph &graph = diagram_->graph();
+    const Field field(graph, diagram_->words());
+    std::vector<Source> seeds = sources_of(*diagram_);
+    if (concerned != nullptr)
+        std::erase_if(seeds, [&](const Source &seed) { return !(*concerned)[seed.label]; });
+    return graph::ratio_parts({field, cells, seeds, options_.batch_bytes, graph.threads(), graph.simd(), voxels_},
+                              progress);
+}
+
+// Keep rows, and the diagram they belong to. Nothing is changed when memory runs out.
+void Interpolation::adopt(Rows rows, Rows parts) {
     Words words = diagram_->words();
     std::vector<uint32_t> ids, id_of_slot = ids_by_slot(*diagram_);
     for (const Seed &seed : diagram_->solved_seeds())
@@ -105,6 +116,7 @@ void Interpolation::adopt(Rows rows) {
     for (Share &share : rows.shares)
         share.label = diagram_->position_of_slot()[share.label];
     rows_ = std::move(rows);
+    parts_ = std::move(parts);
     words_ = std::move(words);
     ids_ = std::move(ids);
     id_of_slot_ = std::move(id_of_slot);
@@ -120,47 +132,45 @@ bool Interpolation::same_slots() const {
     return true;
 }
 
-// The rows that can have changed, and the seeds that can weigh in them; `old` with seeds by slot.
-RatioScope Interpolation::affected(const Rows &old) const {
-    const Graph &graph = diagram_->graph();
-    if (options_.method == LOCUS_METHOD_DISTANCE_RATIO) {
-        const auto changed = changed_voxels(graph, words_, version_, diagram_->words());
-        return ratio_scope(Field(graph, diagram_->words()), sources(), voxels_, changed, old);
-    }
-    const auto voxels = affected_voxels(graph, words_, version_, diagram_->words());
-    std::vector<uint64_t> rows;
+// From the rows as they are, with seeds by slot; those that were computed anew.
+std::vector<uint64_t> Interpolation::update_natural(Rows rows) {
+    const auto voxels = affected_voxels(diagram_->graph(), words_, version_, diagram_->words());
+    std::vector<uint64_t> affected;
     for (uint64_t row = 0; row < voxels_.size(); ++row)
         if (voxels[voxels_[row]])
-            rows.push_back(row);
-    return {std::move(rows), {}};
+            affected.push_back(row);
+    if (!affected.empty())
+        rows = natural(affected, &rows);
+    adopt(std::move(rows), {});
+    return affected;
+}
+
+std::vector<uint64_t> Interpolation::update_ratio(const Rows &rows) {
+    const Graph &graph = diagram_->graph();
+    const Field now(graph, diagram_->words()), before(graph, words_);
+    const std::vector<Cell> cells = survey_cells(now);
+    const std::vector<bool> concerned =
+        concerned_labels(now, before, sources_of(*diagram_), cells, edited_voxels(graph, version_));
+    Renewed renewed = renew_rows(parts_, rows, ratio_parts(cells, &concerned), concerned, options_.max_per_row);
+    adopt(std::move(renewed.rows), std::move(renewed.parts));
+    return std::move(renewed.changed);
 }
 
 std::vector<uint64_t> Interpolation::update() {
     check_diagram();
-    // The rows as they are, with seeds by slot again.
-    Rows old = rows_;
-    std::unordered_map<uint32_t, uint32_t> slot_of_id;
-    for (uint32_t slot = 0; slot < id_of_slot_.size(); ++slot)
-        slot_of_id[id_of_slot_[slot]] = slot;
-    for (Share &share : old.shares)
-        share.label = slot_of_id[ids_[share.label]];
-
     if (!same_slots()) {
         std::vector<uint64_t> all(voxels_.size());
         std::iota(all.begin(), all.end(), 0);
         compute_all();
         return all;
     }
-    RatioScope scope = affected(old);
-    if (scope.rows.empty()) {
-        adopt(std::move(old));
-        return {};
-    }
-    Rows fresh = compute(scope.seeds, scope.rows, &old);
-    if (options_.method == LOCUS_METHOD_DISTANCE_RATIO)
-        std::erase_if(scope.rows, [&](uint64_t row) { return std::ranges::equal(fresh.row(row), old.row(row)); });
-    adopt(std::move(fresh));
-    return std::move(scope.rows);
+    Rows rows = rows_;
+    std::unordered_map<uint32_t, uint32_t> slot_of_id;
+    for (uint32_t slot = 0; slot < id_of_slot_.size(); ++slot)
+        slot_of_id[id_of_slot_[slot]] = slot;
+    for (Share &share : rows.shares)
+        share.label = slot_of_id[ids_[share.label]];
+    return options_.method == LOCUS_METHOD_DISTANCE_RATIO ? update_ratio(rows) : update_natural(std::move(rows));
 }
 
 uint32_t Interpolation::position(uint32_t id) const {

@@ -3,7 +3,7 @@
 
 #include "core/progress.hpp"
 #include "graph/diagram.hpp"
-#include "graph/weights/ratio_scope.hpp"
+#include "graph/weights/cells.hpp"
 #include "graph/weights/rows.hpp"
 
 #include <locus/weights.h>
@@ -40,12 +40,14 @@ public:
 private:
     void take_options(const locus_weights_options &options);
     void check_diagram() const;
+    // Rows and parts with seeds by slot.
     void compute_all();
-    std::vector<Source> sources() const;
-    Rows compute(std::span<const Source> seeds, std::span<const uint64_t> rows, const Rows *base) const;
+    Rows natural(std::span<const uint64_t> rows, const Rows *base) const;
+    Rows ratio_parts(const std::vector<Cell> &cells, const std::vector<bool> *concerned) const;
     bool same_slots() const;
-    RatioScope affected(const Rows &old) const;
-    void adopt(Rows rows);
+    std::vector<uint64_t> update_natural(Rows rows);
+    std::vector<uint64_t> update_ratio(const Rows &rows);
+    void adopt(Rows rows, Rows parts);
     uint32_t position(uint32_t id) const;
 
     std::shared_ptr<const Diagram> diagram_;
@@ -53,6 +55,7 @@ private:
     std::optional<Box> box_;
     std::vector<uint64_t> voxels_; // of each row
     Rows rows_;
+    Rows parts_; // of the distance ratio, by slot: what every row is made from
     std::vector<uint32_t> ids_;
     // The diagram as it was when the rows were made.
     Words words_;

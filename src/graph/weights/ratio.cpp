@@ -1,6 +1,5 @@
 #include "graph/weights/ratio.hpp"
 
-#include "graph/weights/cells.hpp"
 #include "graph/weights/tasks.hpp"
 #include "graph/weights/window.hpp"
 
@@ -19,27 +18,17 @@ struct Part {
     float weight;
 };
 
-// visit(row) for the rows to compute.
-template <typename Visit>
-void for_rows(const RatioJob &job, Visit &&visit) {
-    if (job.rows.empty())
-        for (uint64_t row = 0; row < job.voxels.size(); ++row)
-            visit(row);
-    for (const uint64_t row : job.rows)
-        visit(row);
-}
-
 // The voxels that rows are wanted for, numbered.
 class Wanted {
 public:
     static constexpr uint32_t none = UINT32_MAX;
 
     explicit Wanted(const RatioJob &job) : number_(job.field.grid().voxels(), none) {
-        for_rows(job, [&](uint64_t row) {
-            uint32_t &number = number_[job.voxels[row]];
+        for (const uint64_t voxel : job.voxels) {
+            uint32_t &number = number_[voxel];
             if (number == none)
                 number = count_++;
-        });
+        }
     }
     uint32_t number(uint64_t voxel) const { return number_[voxel]; }
     uint32_t count() const { return count_; }
@@ -50,7 +39,7 @@ private:
 };
 
 // Seeds in the order of 3-D blocks, so that sixteen in a row lie near each other: 3-D Morton codes of their voxels.
-std::vector<Source> by_place(const Grid &grid, std::span<const Source> seeds, const std::vector<Cell> &cells) {
+std::vector<Source> by_place(const Grid &grid, std::span<const Source> seeds, std::span<const Cell> cells) {
     const auto code = [&](uint64_t voxel) {
         const auto place = grid.place(voxel);
         uint64_t code = 0;
@@ -61,7 +50,7 @@ std::vector<Source> by_place(const Grid &grid, std::span<const Source> seeds, co
     };
     std::vector<Source> sorted;
     for (const Source &seed : seeds)
-        if (cells[seed.label].box.extent[0] != 0)
+        if (!cells[seed.label].empty())
             sorted.push_back(seed);
     std::sort(sorted.begin(), sorted.end(), [&](const Source &a, const Source &b) {
         const uint64_t first = code(a.voxel), second = code(b.voxel);
@@ -86,11 +75,11 @@ double weigh(bool inside, uint64_t to_seed, uint64_t to_border) {
 template <typename Word>
 class RatioWorker {
 public:
-    RatioWorker(const RatioJob &job, const std::vector<Cell> &cells, const std::vector<Source> &seeds,
-                const Wanted &wanted, Tasks &tasks, uint64_t bytes, bool on_callers_thread)
-        : job_(job), grid_(job.field.grid()), cells_(cells), seeds_(seeds), wanted_(wanted), tasks_(tasks),
-          bytes_(bytes), on_callers_thread_(on_callers_thread), kernels_(settle_kernels(job.simd).of<Word>()),
-          lane_of_label_(cells.size(), batch_lanes) {}
+    RatioWorker(const RatioJob &job, const std::vector<Source> &seeds, const Wanted &wanted, Tasks &tasks,
+                uint64_t bytes, bool on_callers_thread)
+        : job_(job), grid_(job.field.grid()), seeds_(seeds), wanted_(wanted), tasks_(tasks), bytes_(bytes),
+          on_callers_thread_(on_callers_thread), kernels_(settle_kernels(job.simd).of<Word>()),
+          lane_of_label_(job.cells.size(), batch_lanes) {}
 
     std::vector<Part> run() {
         while (const auto batch = tasks_.take(0)) {
@@ -103,7 +92,7 @@ public:
     }
 
 private:
-    const Cell &cell(unsigned lane) const { return cells_[lanes_[lane].label]; }
+    const Cell &cell(unsigned lane) const { return job_.cells[lanes_[lane].label]; }
 
     bool search_batch(const Tasks::Task &batch) {
         Box box = cell(0).box;
@@ -215,7 +204,6 @@ private:
 
     const RatioJob &job_;
     const Grid &grid_;
-    const std::vector<Cell> &cells_;
     const std::vector<Source> &seeds_;
     const Wanted &wanted_;
     Tasks &tasks_;
@@ -230,54 +218,103 @@ private:
     std::vector<Part> parts_;
 };
 
-// The parts of each wanted voxel together, by counting.
-RowPile rows_of(const RatioJob &job, const Wanted &wanted, const std::vector<std::vector<Part>> &piles) {
-    std::vector<uint64_t> offset(size_t{wanted.count()} + 1);
+// The parts of each row together, by counting.
+Rows by_row(const RatioJob &job, const Wanted &wanted, const std::vector<std::vector<Part>> &piles) {
+    Rows rows; // of the wanted voxels
+    rows.offsets.assign(size_t{wanted.count()} + 1, 0);
     for (const auto &parts : piles)
         for (const Part &part : parts)
-            ++offset[part.voxel + 1];
-    std::partial_sum(offset.begin(), offset.end(), offset.begin());
-    std::vector<RawShare> sorted(offset.back());
-    std::vector<uint64_t> next(offset.begin(), offset.end() - 1);
+            ++rows.offsets[part.voxel + 1];
+    std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
+    rows.shares.resize(rows.offsets.back());
+    std::vector<uint64_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
     for (const auto &parts : piles)
         for (const Part &part : parts)
-            sorted[next[part.voxel]++] = {part.label, part.weight};
-    RowPile rows;
-    std::vector<RawShare> row;
-    for_rows(job, [&](uint64_t i) {
-        const uint32_t number = wanted.number(job.voxels[i]);
-        row.assign(sorted.begin() + static_cast<ptrdiff_t>(offset[number]),
-                   sorted.begin() + static_cast<ptrdiff_t>(offset[number + 1]));
-        finish_row(row, job.most, rows.shares);
-        rows.close(i);
-    });
-    return rows;
+            rows.shares[next[part.voxel]++] = {part.label, part.weight};
+    if (wanted.count() == job.voxels.size())
+        return rows; // numbered in the order of the rows
+    Rows several;
+    for (const uint64_t voxel : job.voxels)
+        add_row(several, rows.row(wanted.number(voxel)));
+    return several;
 }
 
 template <typename Word>
-RowPile run(const RatioJob &job, const std::vector<Cell> &cells, Progress &progress) {
-    const std::vector<Source> seeds = by_place(job.field.grid(), job.seeds, cells);
+Rows run(const RatioJob &job, Progress &progress) {
+    const std::vector<Source> seeds = by_place(job.field.grid(), job.seeds, job.cells);
     const Wanted wanted(job);
     const size_t batches = (seeds.size() + batch_lanes - 1) / batch_lanes;
     Tasks tasks({&batches, 1}, batches, progress);
     std::vector<std::vector<Part>> piles;
     std::mutex mutex;
     tasks.run(job.threads, job.bytes, [&](uint32_t rank, uint64_t bytes) {
-        auto parts = RatioWorker<Word>(job, cells, seeds, wanted, tasks, bytes, rank == 0).run();
+        auto parts = RatioWorker<Word>(job, seeds, wanted, tasks, bytes, rank == 0).run();
         const std::lock_guard lock(mutex);
         piles.push_back(std::move(parts));
     });
-    return rows_of(job, wanted, piles);
+    return by_row(job, wanted, piles);
+}
+
+// Whether the concerned labels weigh in one row what they weighed; mostly they stand in the same order.
+bool same_parts(std::span<const Share> old, std::span<const Share> now, const std::vector<bool> &concerned) {
+    size_t met = 0;
+    for (const Share &share : old) {
+        if (!concerned[share.label])
+            continue;
+        const bool same = met < now.size() && now[met] == share;
+        if (!same && std::ranges::find(now, share) == now.end())
+            return false;
+        ++met;
+    }
+    return met == now.size();
+}
+
+void finish(std::span<const Share> parts, uint32_t most, std::vector<RawShare> &row, Rows &rows) {
+    row.clear();
+    for (const Share &part : parts)
+        row.push_back({part.label, double{part.weight}});
+    finish_row(row, most, rows.shares);
+    rows.offsets.push_back(rows.shares.size());
 }
 
 } // namespace
 
-RowPile ratio_rows(const RatioJob &job, Progress &progress) {
-    const std::vector<Cell> cells = survey_cells(job.field);
+Rows ratio_parts(const RatioJob &job, Progress &progress) {
     uint64_t most = 0;
-    for (const Cell &cell : cells)
+    for (const Cell &cell : job.cells)
         most = std::max(most, 2 * std::max(cell.support(), cell.crossing));
-    return most + 1 < far_away<uint32_t> ? run<uint32_t>(job, cells, progress) : run<uint64_t>(job, cells, progress);
+    return most + 1 < far_away<uint32_t> ? run<uint32_t>(job, progress) : run<uint64_t>(job, progress);
+}
+
+Rows ratio_rows(const Rows &parts, uint32_t most) {
+    Rows rows;
+    rows.offsets.reserve(parts.offsets.size());
+    std::vector<RawShare> row;
+    for (uint64_t i = 0; i < parts.count(); ++i)
+        finish(parts.row(i), most, row, rows);
+    return rows;
+}
+
+Renewed renew_rows(const Rows &parts, const Rows &rows, const Rows &fresh, const std::vector<bool> &concerned,
+                   uint32_t most) {
+    Renewed renewed;
+    std::vector<RawShare> scratch;
+    for (uint64_t i = 0; i < parts.count(); ++i) {
+        const auto old = parts.row(i), now = fresh.row(i);
+        if (same_parts(old, now, concerned)) {
+            add_row(renewed.parts, old);
+            add_row(renewed.rows, rows.row(i));
+            continue;
+        }
+        for (const Share &share : old)
+            if (!concerned[share.label])
+                renewed.parts.shares.push_back(share);
+        add_row(renewed.parts, now);
+        finish(renewed.parts.row(i), most, scratch, renewed.rows);
+        if (!std::ranges::equal(renewed.rows.row(i), rows.row(i)))
+            renewed.changed.push_back(i);
+    }
+    return renewed;
 }
 
 } // namespace locus::graph

@@ -3,7 +3,7 @@
 
 #include "core/progress.hpp"
 #include "core/simd.hpp"
-#include "graph/weights/field.hpp"
+#include "graph/weights/cells.hpp"
 #include "graph/weights/rows.hpp"
 
 #include <span>
@@ -13,17 +13,27 @@ namespace locus::graph {
 
 struct RatioJob {
     const Field &field;
-    std::span<const Source> seeds; // where each label starts, labels unique; those that can weigh in the rows
-    uint32_t most;                 // entries a row may keep; 0: all
+    std::span<const Cell> cells;   // survey_cells(field)
+    std::span<const Source> seeds; // where labels start, labels unique; those whose weights are wanted
     uint64_t bytes;                // most scratch memory of the searches
     uint32_t threads;
     Simd simd;
     std::span<const uint64_t> voxels; // one per row
-    std::span<const uint64_t> rows;   // the rows to compute; all where empty
 };
 
-// A pile with the rows. Distances to borders are whole steps: halves are rounded down. Throws LOCUS_E_MEMORY where
-// `bytes` do not suffice for one thread, LOCUS_E_STOPPED.
-RowPile ratio_rows(const RatioJob &job, Progress &progress);
+// Before normalising: what each of the seeds weighs at each voxel, in no order. Distances to borders are whole steps:
+// halves are rounded down. Throws LOCUS_E_MEMORY where `bytes` do not suffice for one thread, LOCUS_E_STOPPED.
+Rows ratio_parts(const RatioJob &job, Progress &progress);
+
+// The rows that these make, of at most `most` entries (0: all).
+Rows ratio_rows(const Rows &parts, uint32_t most);
+
+struct Renewed {
+    Rows parts, rows;
+    std::vector<uint64_t> changed; // the numbers of the rows that are others now, rising
+};
+// With what the concerned labels now weigh, `fresh`, in the place of what they weighed.
+Renewed renew_rows(const Rows &parts, const Rows &rows, const Rows &fresh, const std::vector<bool> &concerned,
+                   uint32_t most);
 
 } // namespace locus::graph

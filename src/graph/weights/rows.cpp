@@ -34,10 +34,8 @@ Rows assemble(uint64_t count, std::span<const RowPile> piles, const Rows *base) 
     Rows rows;
     rows.offsets.reserve(count + 1);
     rows.shares.reserve(entries);
-    for (const auto &row : found) {
-        rows.shares.insert(rows.shares.end(), row.begin(), row.end());
-        rows.offsets.push_back(rows.shares.size());
-    }
+    for (const auto &row : found)
+        add_row(rows, row);
     return rows;
 }
 

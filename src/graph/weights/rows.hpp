@@ -35,6 +35,11 @@ struct Rows {
     }
 };
 
+inline void add_row(Rows &rows, std::span<const Share> row) {
+    rows.shares.insert(rows.shares.end(), row.begin(), row.end());
+    rows.offsets.push_back(rows.shares.size());
+}
+
 // Some rows computed by one thread: where each belongs, and its end in `shares`.
 struct RowPile {
     std::vector<uint64_t> place;

@@ -76,6 +76,23 @@ TEST(Interpolation, BoxesAndListsGiveTheSameRows) {
         ASSERT_TRUE(std::ranges::equal(part.rows().row(row), all.rows().row(list[row])));
 }
 
+// Voxels of a list may repeat, also in updates.
+TEST(Interpolation, DistanceRatiosOfAListWithRepeatedVoxels) {
+    Model model = noisy(10);
+    std::vector<uint64_t> list;
+    for (uint64_t i = 0; i < 300; ++i)
+        list.push_back(i * 37 % 200 * 16);
+    Interpolation listed(model.diagram, method(LOCUS_METHOD_DISTANCE_RATIO), list);
+    for (const float value : {40.0f, 1.0f}) {
+        const Interpolation all(model.diagram, method(LOCUS_METHOD_DISTANCE_RATIO), model.graph->grid().whole());
+        for (uint64_t row = 0; row < list.size(); ++row)
+            ASSERT_TRUE(std::ranges::equal(listed.rows().row(row), all.rows().row(list[row])));
+        model.graph->fill_box({{10, 5, 3}, {4, 3, 3}}, value);
+        model.solve();
+        EXPECT_GT(listed.update().size(), 0u);
+    }
+}
+
 TEST(Interpolation, DenseAndInterpolatedValuesFollowTheRows) {
     const Model model = noisy(2);
     const Interpolation weights(model.diagram, method(LOCUS_METHOD_SIBSON), model.graph->grid().whole());

@@ -21,9 +21,9 @@ Rows rows_of(const Solved &solved, uint32_t method, const std::vector<uint64_t> 
     Progress progress;
     const uint64_t bytes = uint64_t{1} << 30;
     if (method == LOCUS_METHOD_DISTANCE_RATIO) {
-        const RowPile pile =
-            ratio_rows({solved.field(), solved.sources, 0, bytes, 2, simd_best(), voxels, {}}, progress);
-        return assemble(voxels.size(), {&pile, 1});
+        const Field field = solved.field();
+        const std::vector<Cell> cells = survey_cells(field);
+        return ratio_rows(ratio_parts({field, cells, solved.sources, bytes, 2, simd_best(), voxels}, progress), 0);
     }
     return assemble(voxels.size(),
                     natural_rows({solved.field(), method, 0, bytes, 2, simd_best(), voxels, {}}, progress));

@@ -1,7 +1,7 @@
 // Distance-ratio rows against the formulas.
 #include "fields.hpp"
+#include "graph/weights/concerned.hpp"
 #include "graph/weights/ratio.hpp"
-#include "graph/weights/ratio_scope.hpp"
 #include "naive.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,9 @@ void expect_the_formulas(const Solved &solved, uint64_t bytes = uint64_t{1} << 3
     std::vector<uint64_t> voxels(field.grid().voxels());
     std::iota(voxels.begin(), voxels.end(), 0);
     Progress progress;
-    const RowPile pile = ratio_rows({field, solved.sources, 0, bytes, 2, simd_best(), voxels, {}}, progress);
-    const Rows rows = assemble(voxels.size(), {&pile, 1});
+    const std::vector<Cell> cells = survey_cells(field);
+    const Rows rows =
+        ratio_rows(ratio_parts({field, cells, solved.sources, bytes, 2, simd_best(), voxels}, progress), 0);
     for (uint64_t v = 0; v < voxels.size(); ++v) {
         double sum = 0, total = 0;
         for (const auto &[label, weight] : expected[v])
@@ -61,28 +62,18 @@ TEST(Ratio, TwoSeedsOnOneVoxelAndStartingDistances) {
     expect_the_formulas(solved);
 }
 
-// A change in a bar of many cells concerns what lies around it, whatever the rows are asked for.
+// A change in a bar of many cells concerns the seeds around it.
 TEST(Ratio, AnUpdateStaysNearTheChange) {
     const Solved solved(options_for(400, 4, 4), std::vector<float>(400 * 4 * 4, 1), 100, 12);
     const Field field = solved.field();
-    std::vector<uint64_t> voxels(field.grid().voxels());
-    std::iota(voxels.begin(), voxels.end(), 0);
-    Progress progress;
-    const RowPile pile = ratio_rows({field, solved.sources, 0, 1u << 30, 1, simd_best(), voxels, {}}, progress);
-    const Rows rows = assemble(voxels.size(), {&pile, 1});
-    std::vector<bool> changed(voxels.size());
-    EXPECT_TRUE(ratio_scope(field, solved.sources, voxels, changed, rows).rows.empty());
-    changed[field.grid().index(200, 2, 2)] = true;
-    const RatioScope scope = ratio_scope(field, solved.sources, voxels, changed, rows);
-    EXPECT_GT(scope.rows.size(), 0u);
-    EXPECT_LT(scope.rows.size(), voxels.size() / 3);
-    EXPECT_LT(scope.seeds.size(), solved.sources.size() / 2);
-    // The seeds of the scope suffice for its rows.
-    const RatioJob job{field, scope.seeds, 0, 1u << 30, 1, simd_best(), voxels, scope.rows};
-    const RowPile part = ratio_rows(job, progress);
-    const Rows again = assemble(voxels.size(), {&part, 1});
-    for (const uint64_t row : scope.rows)
-        ASSERT_TRUE(std::ranges::equal(rows.row(row), again.row(row))) << "row " << row;
+    const std::vector<Cell> cells = survey_cells(field);
+    std::vector<bool> edited(field.grid().voxels());
+    const auto concerned = [&] { return concerned_labels(field, field, solved.sources, cells, edited); };
+    EXPECT_EQ(std::ranges::count(concerned(), true), 0);
+    edited[field.grid().index(200, 2, 2)] = true;
+    const auto labels = concerned();
+    EXPECT_TRUE(labels[field.label(field.grid().index(200, 2, 2))]);
+    EXPECT_LT(std::ranges::count(labels, true), 20);
 }
 
 TEST(Ratio, LittleMemoryMeansFewerThreads) {
