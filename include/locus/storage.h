@@ -86,8 +86,10 @@ LOCUS_API locus_status locus_pmq_save(const locus_pmq *pmq, const locus_pmq_snap
  * (NULL: the defaults, with the file's record layout); options->record must be the file's. The clock is the saved one,
  * the horizon and the limits are those of the options; what is beyond them, or had expired before, waits for the sink
  * (pending). stats count from here: the file's records are `inserted`. Everything is validated: checksums, places,
- * order, times. `*pmq` is the caller's; NULL on any error. Errors: LOCUS_E_ARGUMENT, LOCUS_E_IO, LOCUS_E_FORMAT,
- * LOCUS_E_MEMORY, LOCUS_E_STOPPED (by `progress`, which may be NULL). Any thread. Since 0.1. */
+ * order, times. A large file is read by up to four threads, started for the call and joined before it returns; all
+ * callbacks are called by the caller's. `*pmq` is the caller's; NULL on any error. Errors: LOCUS_E_ARGUMENT,
+ * LOCUS_E_IO, LOCUS_E_FORMAT, LOCUS_E_MEMORY, LOCUS_E_STOPPED (by `progress`, which may be NULL). Any thread. Since
+ * 0.1. */
 LOCUS_API locus_status locus_pmq_load(const char *path, const locus_pmq_options *options, locus_progress_fn progress,
                                       void *user, locus_pmq **pmq) LOCUS_NOEXCEPT;
 

@@ -90,6 +90,10 @@ public:
     uint64_t size() const { return size_; }
     // It will be read from the beginning to the end.
     void expect_sequence() const noexcept { ::posix_fadvise(file_.number(), 0, 0, POSIX_FADV_SEQUENTIAL); }
+    // These bytes will be read soon: the disk may begin.
+    void expect(uint64_t offset, uint64_t bytes) const noexcept {
+        ::posix_fadvise(file_.number(), static_cast<off_t>(offset), static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
+    }
     // Read up to target.size() bytes from `offset` on; fewer only at the end of the file.
     size_t read_at(uint64_t offset, std::span<std::byte> target) const {
         size_t done = 0;

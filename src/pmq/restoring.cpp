@@ -7,15 +7,20 @@
 
 namespace locus::pmq {
 
-Restoring::Restoring(Store &store, int64_t now)
-    : store_(store), format_(store.format_),
+Restoring::Restoring(Store &store, int64_t now, Crew &crew)
+    : store_(store), crew_(crew), format_(store.format_),
       eviction_(store.format_, Moment::at(now, store.options_.horizon), nullptr, nullptr),
       enough_(store.layout_->fill_batch()) {}
 
-void Restoring::add(uint64_t key, Bytes record) {
-    keys_.push_back(key);
-    records_.insert(records_.end(), record, record + format_.size);
-    oldest_ = std::min(oldest_, format_.time(record));
+// Few records are kept until there are enough of them.
+void Restoring::add(const Batch &batch) {
+    if (keys_.empty() && batch.count >= enough_) {
+        fill(batch);
+        return;
+    }
+    keys_.insert(keys_.end(), batch.keys, batch.keys + batch.count);
+    records_.insert(records_.end(), batch.records, batch.records + batch.count * format_.size);
+    oldest_ = std::min(oldest_, batch.oldest);
     if (keys_.size() >= enough_)
         flush();
 }
@@ -23,11 +28,15 @@ void Restoring::add(uint64_t key, Bytes record) {
 void Restoring::flush() {
     if (keys_.empty())
         return;
-    store_.layout_->fill({records_.data(), keys_.data(), keys_.size(), oldest_}, eviction_, store_.departures_);
-    store_.inserted_ += keys_.size();
+    fill({records_.data(), keys_.data(), keys_.size(), oldest_});
     keys_.clear();
     records_.clear();
     oldest_ = INT64_MAX;
+}
+
+void Restoring::fill(const Batch &batch) {
+    store_.layout_->fill(batch, crew_, eviction_, store_.departures_);
+    store_.inserted_ += batch.count;
     enough_ = store_.layout_->fill_batch();
 }
 

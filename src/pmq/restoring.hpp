@@ -10,9 +10,10 @@ namespace locus::pmq {
 class Restoring {
 public:
     // The store is new; `now` is the clock it will have. Its predicate is not asked, its callbacks are not called.
-    Restoring(Store &store, int64_t now);
+    // The crew helps to fill it.
+    Restoring(Store &store, int64_t now, Crew &crew);
 
-    void add(uint64_t key, Bytes record); // a saved one
+    void add(const Batch &batch); // saved ones
     void insert(std::span<const std::byte> records);
     // It has left: hand it over as soon as the store is used.
     void depart(Bytes record);
@@ -22,9 +23,11 @@ public:
 
 private:
     void flush();
+    void fill(const Batch &batch);
     void flush_departures();
 
     Store &store_;
+    Crew &crew_;
     const RecordFormat &format_;
     Eviction eviction_;
     std::vector<uint64_t> keys_; // of what has been added

@@ -10,6 +10,10 @@
 #include <cstdint>
 #include <memory>
 
+namespace locus {
+class Crew;
+}
+
 namespace locus::pmq {
 
 class Departures;
@@ -136,7 +140,7 @@ public:
     // For a store that is being made: take in records in the order (key, arrival), behind all that came before, in
     // batches of `fill_batch` as a rule. Keeps no limit on records. Not all or nothing: after a failure the layout is
     // only good for destruction. A sweep ends it.
-    virtual void fill(const Batch &batch, Eviction &eviction, Departures &departures) = 0;
+    virtual void fill(const Batch &batch, Crew &crew, Eviction &eviction, Departures &departures) = 0;
     virtual size_t fill_batch() const noexcept = 0;
 
     // The current moment. Any thread; to be asked while the view is held, or, where `views_last` is false, until the

@@ -24,7 +24,7 @@ public:
     void insert(const Batch &batch, Eviction &eviction, Departures &departures) override;
     void sweep(Eviction &eviction, Departures &departures) override;
     void erase(const Selection &selection, Departures &departures) override;
-    void fill(const Batch &batch, Eviction &eviction, Departures &departures) override {
+    void fill(const Batch &batch, Crew &, Eviction &eviction, Departures &departures) override {
         insert(batch, eviction, departures);
     }
     size_t fill_batch() const noexcept override;

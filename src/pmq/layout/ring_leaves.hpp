@@ -25,7 +25,7 @@ public:
     void insert(const Batch &batch, Eviction &eviction, Departures &departures) override;
     void sweep(Eviction &eviction, Departures &departures) override;
     void erase(const Selection &selection, Departures &departures) override;
-    void fill(const Batch &batch, Eviction &eviction, Departures &departures) override;
+    void fill(const Batch &batch, Crew &crew, Eviction &eviction, Departures &departures) override;
     size_t fill_batch() const noexcept override;
     std::shared_ptr<const View> view() const override;
     bool views_last() const noexcept override { return true; }
@@ -70,6 +70,13 @@ private:
     };
     struct Spot {
         size_t node, leaf;
+    };
+    // A leaf that takes the records begin..end - 1 of a batch.
+    struct Filled {
+        Spot spot;
+        size_t begin, end;
+        Target target;
+        int64_t newest;
     };
     // What readers of the versions born..retired - 1 may still see.
     struct Garbage {
@@ -117,8 +124,8 @@ private:
 
     // ring_fill.cpp
     size_t filled_slots() const noexcept;
-    void fill_leaf(const Batch &batch, size_t begin, size_t end);
-    void append_leaf(uint64_t key);
+    void fill_leaf(const Batch &batch, Filled &leaf) const noexcept;
+    Spot append_leaf(uint64_t key);
 
     // ring_expiry.cpp
     void collect(size_t position, int64_t cutoff, Eviction *eviction, bool thoroughly, std::vector<Cut> &cuts) const;

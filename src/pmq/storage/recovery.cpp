@@ -25,6 +25,25 @@ std::unique_ptr<Store> new_store(const locus_pmq_options *options, const SavedFi
     return std::make_unique<Store>(whole);
 }
 
+// Let those records of a saved batch depart that `departs` takes, and keep the others.
+template <typename Departs>
+void restore(const Batch &saved, const RecordFormat &format, Restoring &restoring, Departs &&departs) {
+    Batch staying{saved.records, saved.keys, 0, INT64_MAX};
+    for (size_t i = 0; i < saved.count; ++i) {
+        const Bytes record = saved.records + i * format.size;
+        if (!departs(record)) {
+            ++staying.count;
+            staying.oldest = std::min(staying.oldest, format.time(record));
+            continue;
+        }
+        if (staying.count > 0)
+            restoring.add(staying);
+        staying = {record + format.size, saved.keys + i + 1, 0, INT64_MAX};
+    }
+    if (staying.count > 0)
+        restoring.add(staying);
+}
+
 // The segments from one on, and what they tell of the states behind the saved one.
 class Log {
 public:
@@ -168,17 +187,20 @@ public:
         losses.add_state(file.header().cutoff);
         progress.part(0, 0.2);
         log_->scan(file.header().now, losses, progress);
-        Restoring restoring(*store, log_->now());
+        Crew crew(file.threads());
+        Restoring restoring(*store, log_->now(), crew);
         losses.add_state(restoring.moment().cutoff);
         losses.finish();
 
         progress.part(0.2, 0.7);
         const size_t record = file.format().size;
-        file.for_each(progress, [&](uint64_t key, Bytes at) {
-            if (!losses.take(at, 0))
-                restoring.add(key, at);
-            else
+        file.for_each(crew, progress, [&](const Batch &batch) {
+            restore(batch, file.format(), restoring, [&](Bytes at) {
+                if (!losses.take(at, 0))
+                    return false;
                 depart(restoring, at, options_.redeliver || file.format().time(at) < file.header().cutoff);
+                return true;
+            });
         });
         progress.part(0.7, 1);
         replay(losses, restoring, record, progress);
@@ -252,13 +274,20 @@ locus_pmq_recovery empty_report() noexcept {
 std::unique_ptr<Store> load(const std::string &path, const locus_pmq_options *options, Progress &progress) {
     const SavedFile file(path);
     std::unique_ptr<Store> store = new_store(options, file, path);
-    Restoring restoring(*store, file.header().now);
+    Crew crew(file.threads());
+    Restoring restoring(*store, file.header().now, crew);
     const int64_t cutoff = std::max(file.header().cutoff, restoring.moment().cutoff);
-    file.for_each(progress, [&](uint64_t key, Bytes record) {
-        if (file.format().time(record) >= cutoff)
-            restoring.add(key, record);
-        else
-            restoring.depart(record);
+    file.for_each(crew, progress, [&](const Batch &batch) {
+        if (batch.oldest >= cutoff) {
+            restoring.add(batch);
+            return;
+        }
+        restore(batch, file.format(), restoring, [&](Bytes record) {
+            const bool expired = file.format().time(record) < cutoff;
+            if (expired)
+                restoring.depart(record);
+            return expired;
+        });
     });
     restoring.finish();
     return store;

@@ -2,8 +2,10 @@
 #include "pmq/storage/saved_file.hpp"
 
 #include "core/checksum.hpp"
+#include "core/team.hpp"
 
 #include <algorithm>
+#include <exception>
 
 namespace locus::pmq {
 namespace {
@@ -11,6 +13,8 @@ namespace {
 constexpr uint64_t block_bytes = 256 << 10; // about
 constexpr uint64_t most_block_records = 1 << 20;
 constexpr size_t sum_bytes = sizeof(uint64_t);
+constexpr uint64_t group_bytes = 24 * block_bytes; // that are read together
+constexpr uint32_t most_threads = 4;               // that read
 
 // Where a block begins; behind the last one, where the file ends.
 uint64_t block_offset(const SavedHeader &header, uint64_t block) noexcept {
@@ -118,15 +122,19 @@ void SavedFile::check_header() {
         fail(LOCUS_E_FORMAT, path, ": ends at byte ", file_.size(), ", not at ", header_.bytes);
 }
 
-void SavedFile::read_block(uint64_t block, std::vector<std::byte> &bytes) const {
+// A block's records, once they have proved sound, and their keys; the smallest of their times.
+int64_t SavedFile::read_block(uint64_t block, std::span<std::byte> records, uint64_t *keys) const {
     const uint64_t offset = block_offset(header_, block);
-    const size_t size = block_offset(header_, block + 1) - offset;
-    if (const size_t got = file_.read_at(offset, {bytes.data(), size}); got < size)
-        fail(LOCUS_E_FORMAT, file_.path(), ": ends at byte ", offset + got, ", not at ", header_.bytes);
     uint64_t sum;
-    std::memcpy(&sum, bytes.data(), sum_bytes);
-    if (sum != checksum({bytes.data() + sum_bytes, size - sum_bytes}, block))
+    const std::span<std::byte> sum_word(reinterpret_cast<std::byte *>(&sum), sum_bytes);
+    size_t got = file_.read_at(offset, sum_word);
+    if (got == sum_bytes)
+        got += file_.read_at(offset + sum_bytes, records);
+    if (got < sum_bytes + records.size())
+        fail(LOCUS_E_FORMAT, file_.path(), ": ends at byte ", offset + got, ", not at ", header_.bytes);
+    if (sum != checksum(records, block))
         fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset, ": the checksum of block ", block, " does not match");
+    return find_keys(records, offset + sum_bytes, keys);
 }
 
 void SavedFile::check_record(Bytes record, uint64_t offset) const {
@@ -140,40 +148,93 @@ void SavedFile::check_record(Bytes record, uint64_t offset) const {
              header_.now);
 }
 
-// Check a block's records and find their keys.
-void SavedFile::find_keys(const std::vector<std::byte> &bytes, uint64_t offset, Block &block) const {
-    block.latitudes.resize(block.count);
-    block.longitudes.resize(block.count);
-    block.keys.resize(block.count);
-    for (size_t i = 0; i < block.count; ++i) {
-        const uint64_t at = sum_bytes + i * format_.size;
-        const Bytes record = bytes.data() + at;
-        check_record(record, offset + at);
-        block.latitudes[i] = format_.latitude(record);
-        block.longitudes[i] = format_.longitude(record);
+int64_t SavedFile::find_keys(std::span<const std::byte> records, uint64_t offset, uint64_t *keys) const {
+    constexpr size_t chunk = 128;
+    double latitudes[chunk], longitudes[chunk];
+    const size_t count = records.size() / format_.size;
+    int64_t oldest = INT64_MAX;
+    for (size_t begin = 0; begin < count; begin += chunk) {
+        const size_t size = std::min(chunk, count - begin);
+        for (size_t i = 0; i < size; ++i) {
+            const uint64_t at = (begin + i) * format_.size;
+            const Bytes record = records.data() + at;
+            check_record(record, offset + at);
+            latitudes[i] = format_.latitude(record);
+            longitudes[i] = format_.longitude(record);
+            oldest = std::min(oldest, format_.time(record));
+        }
+        find_keys_(latitudes, longitudes, keys + begin, size);
     }
-    find_keys_(block.latitudes.data(), block.longitudes.data(), block.keys.data(), block.count);
+    check_order({keys, count}, 0, offset);
+    return oldest;
 }
 
-void SavedFile::for_each(Progress &progress, FunctionRef<void(uint64_t key, Bytes record)> visit) const {
-    file_.expect_sequence();
-    std::vector<std::byte> bytes(sum_bytes + std::min(header_.block_records, header_.records) * header_.record);
-    Block found;
-    uint64_t before = 0, done = 0;
-    for (uint64_t block = 0; block < blocks(header_); ++block) {
-        const uint64_t offset = block_offset(header_, block);
-        read_block(block, bytes);
-        found.count = std::min(header_.records - done, header_.block_records);
-        find_keys(bytes, offset, found);
-        for (size_t i = 0; i < found.count; ++i) {
-            const uint64_t at = sum_bytes + i * format_.size;
-            if (found.keys[i] < before)
-                fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset + at, ": a record out of the order of keys");
-            before = found.keys[i];
-            visit(before, bytes.data() + at);
+// `before` is the key of the record before the first one, which lies at `offset`.
+void SavedFile::check_order(std::span<const uint64_t> keys, uint64_t before, uint64_t offset) const {
+    for (size_t i = 0; i < keys.size(); ++i) {
+        if (keys[i] < before)
+            fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset + i * format_.size,
+                 ": a record out of the order of keys");
+        before = keys[i];
+    }
+}
+
+// The last key. Of several damaged blocks the first one is reported.
+uint64_t SavedFile::read_group(Crew &crew, const Group &group, uint64_t before, int64_t &oldest) const {
+    struct Result {
+        int64_t oldest;
+        std::exception_ptr error;
+    };
+    const auto part = [&](auto records, size_t block, size_t size) {
+        return records.subspan(block * size, std::min(size, records.size() - block * size));
+    };
+    const size_t per_block = header_.block_records, block_size = per_block * format_.size;
+    std::vector<Result> results((group.keys.size() + per_block - 1) / per_block);
+    crew.for_each(results.size(), 1, [&](uint64_t i, uint64_t) {
+        try {
+            results[i].oldest =
+                read_block(group.first + i, part(group.records, i, block_size), &group.keys[i * per_block]);
+        } catch (...) {
+            results[i].error = std::current_exception();
         }
-        done += found.count;
-        progress.report(static_cast<double>(done) / static_cast<double>(header_.records));
+    });
+    oldest = INT64_MAX;
+    for (size_t i = 0; i < results.size(); ++i) {
+        if (results[i].error)
+            std::rethrow_exception(results[i].error);
+        oldest = std::min(oldest, results[i].oldest);
+        const auto keys = part(group.keys, i, per_block);
+        check_order(keys.first(1), before, block_offset(header_, group.first + i) + sum_bytes);
+        before = keys.back();
+    }
+    return before;
+}
+
+uint32_t SavedFile::threads() const noexcept {
+    return static_cast<uint32_t>(std::min<uint64_t>(std::min(default_threads(), most_threads), blocks(header_)));
+}
+
+void SavedFile::for_each(Crew &crew, Progress &progress, FunctionRef<void(const Batch &)> visit) const {
+    file_.expect_sequence();
+    const uint64_t together = std::max<uint64_t>(group_bytes / (header_.block_records * format_.size), 1);
+    const uint64_t most = std::min(together * header_.block_records, header_.records);
+    std::vector<std::byte> records(most * format_.size);
+    std::vector<uint64_t> keys(most);
+    uint64_t before = 0;
+    for (uint64_t block = 0; block < blocks(header_); block += together) {
+        const uint64_t begin = block * header_.block_records, count = std::min(most, header_.records - begin);
+        const auto report = [&](double part) {
+            progress.report((static_cast<double>(begin) + part * static_cast<double>(count)) /
+                            static_cast<double>(header_.records));
+        };
+        report(0);
+        int64_t oldest;
+        before =
+            read_group(crew, {block, {records.data(), count * format_.size}, {keys.data(), count}}, before, oldest);
+        file_.expect(block_offset(header_, block + together), group_bytes);
+        report(0.5);
+        visit({records.data(), keys.data(), count, oldest});
+        report(1);
     }
 }
 

@@ -1,6 +1,7 @@
 // A saved store: a header, then blocks of records in the order (key, arrival), each with its checksum.
 #pragma once
 
+#include "core/crew.hpp"
 #include "core/file.hpp"
 #include "core/mercator.hpp"
 #include "core/progress.hpp"
@@ -37,20 +38,25 @@ public:
 
     const SavedHeader &header() const noexcept { return header_; }
     const RecordFormat &format() const noexcept { return format_; }
-    // Show every record with its key, in order, once its block has proved sound.
-    void for_each(Progress &progress, FunctionRef<void(uint64_t key, Bytes record)> visit) const;
+    // How many threads reading it deserves.
+    uint32_t threads() const noexcept;
+    // Show all records with their keys, in order, many at a time, once their blocks have proved sound. The crew reads
+    // blocks; `visit` is called by this thread.
+    void for_each(Crew &crew, Progress &progress, FunctionRef<void(const Batch &)> visit) const;
 
 private:
-    // The places of a block's records.
-    struct Block {
-        size_t count = 0;
-        std::vector<double> latitudes, longitudes;
-        std::vector<uint64_t> keys;
+    // Neighbouring blocks that are read together.
+    struct Group {
+        uint64_t first; // block
+        std::span<std::byte> records;
+        std::span<uint64_t> keys;
     };
     void check_header();
-    void read_block(uint64_t block, std::vector<std::byte> &bytes) const;
+    uint64_t read_group(Crew &crew, const Group &group, uint64_t before, int64_t &oldest) const;
+    int64_t read_block(uint64_t block, std::span<std::byte> records, uint64_t *keys) const;
+    int64_t find_keys(std::span<const std::byte> records, uint64_t offset, uint64_t *keys) const;
     void check_record(Bytes record, uint64_t offset) const;
-    void find_keys(const std::vector<std::byte> &bytes, uint64_t offset, Block &block) const;
+    void check_order(std::span<const uint64_t> keys, uint64_t before, uint64_t offset) const;
 
     const KeysOf find_keys_ = keys_of(simd_best());
     InputFile file_;
