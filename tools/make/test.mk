@@ -10,7 +10,9 @@ test: unit api headers exports abi memcheck install-test readme ## the quick tes
 # Unit tests: one GoogleTest program per folder of tests/unit, linked with the static libraries. UNIT_LIBS_<area>: more it needs;
 # UNIT_JOBS_<area>: whose packages it is compiled with.
 STATIC_LINK = $(foreach name,$(LIBRARIES),$(STATIC_$(name)) $(LIBS_$(name)) $(BASES_$(name):%=$(OUT)/lib%.a))
+# The longest first, so that no core waits for it at the end.
 UNIT_AREAS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/unit/*/*.cpp)))))
+UNIT_AREAS := pmq weights $(filter-out pmq weights,$(UNIT_AREAS))
 UNIT_OBJECTS := $(patsubst %,$(OUT)/%.o,$(wildcard tests/unit/*/*.cpp))
 $(UNIT_OBJECTS): EXTRA_CPPFLAGS += -I.
 # With clang -Wconversion means signs too, which would only clutter the tests with casts.
