@@ -14,7 +14,7 @@ size_t rank(const uint64_t *keys, size_t count, uint64_t key) noexcept {
     while (count > 1) {
         const size_t half = count / 2;
         const bool right = inclusive ? at[half - 1] <= key : at[half - 1] < key;
-        at += right ? half : 0;
+        at += half & -size_t{right};
         count -= half;
     }
     return static_cast<size_t>(at - keys) + (count == 1 && (inclusive ? *at <= key : *at < key));
