@@ -29,7 +29,7 @@ bench-plots: | $(call needs,plots) ## draw tables 3.2, 3.3 and figures 3.8 to 3.
 	@/usr/bin/python3 tests/bench/plot.py build/bench.jsonl build
 
 # A small run of a case of each kind: the answers of ours and of the peers that were found are compared.
-CHECK_CASES := pmq\.(insert\.1M\.b100|window\.10M8\.b1000|count\.30km|read\.30km|cold\..*|tile\.z4|topk.*)|voronoi\.(cube128\.(gradient|maze)|plate)\.s[0-9]+|update.*
+CHECK_CASES := pmq\.(insert\.1M\.b100|window\.10M8\.b1000|readers\.1|count\.30km|read\.30km|cold\..*|tile\.z4|topk.*)|voronoi\.(cube128\.(gradient|maze)|plate)\.s[0-9]+|update.*
 check: check-bench
 check-bench: $(BENCH_PROGRAM)
 	$(STAGE) $@ $< --quick --out $(OUT)/bench-smoke.jsonl --only '^($(CHECK_CASES))$$'

@@ -47,7 +47,7 @@ public:
         first = 0;
         for (size_t count = leaf_.known; count > 0;) { // without a branch to mispredict
             const size_t half = (count + 1) / 2;
-            first += older(first + half - 1) ? half : 0;
+            first += half & -size_t{older(first + half - 1)};
             count -= half;
         }
         for (end = first; end < leaf_.known && at(end) == wanted;)

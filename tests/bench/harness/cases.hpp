@@ -34,6 +34,7 @@ std::string data_file(const std::string &path);
 
 void add_pmq_insert(Cases &cases);
 void add_pmq_window(Cases &cases);
+void add_pmq_readers(Cases &cases);
 void add_pmq_queries(Cases &cases);
 void add_pmq_storage(Cases &cases);
 void add_pmq_topk(Cases &cases);

@@ -39,6 +39,7 @@ Cases all_cases() {
     Cases cases;
     add_pmq_insert(cases);
     add_pmq_window(cases);
+    add_pmq_readers(cases);
     add_pmq_queries(cases);
     add_pmq_storage(cases);
     add_pmq_topk(cases);
