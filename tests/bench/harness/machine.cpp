@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <malloc.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <thread>
 #include <vector>
@@ -64,6 +65,19 @@ std::size_t peak_bytes() {
 std::size_t allocated_bytes() {
     const struct mallinfo2 info = mallinfo2();
     return info.uordblks + info.hblkhd;
+}
+
+void provide_memory(std::size_t bytes) {
+    void *memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) {
+        return;
+    }
+    madvise(memory, bytes, MADV_HUGEPAGE);
+    constexpr std::size_t page = 4096;
+    for (std::size_t at = 0; at < bytes; at += page) {
+        static_cast<volatile char *>(memory)[at] = 0;
+    }
+    munmap(memory, bytes);
 }
 
 } // namespace bench

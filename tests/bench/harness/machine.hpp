@@ -19,5 +19,9 @@ std::size_t peak_bytes();
 /// Bytes that malloc has handed out and not got back.
 std::size_t allocated_bytes();
 
+/// Have the system hold `bytes` of free memory in large pages that were touched just now: a hypervisor that takes free
+/// pages back gives them again at many times the cost of clearing them, which is not what a case times.
+void provide_memory(std::size_t bytes);
+
 } // namespace bench
 #endif

@@ -15,6 +15,7 @@ void insert_case(Row &row, std::size_t count, std::size_t batch, bool with_rtree
     for (const Competitor<Record> &competitor : competitors<Record>(with_rtree)) {
         contestants.push_back(
             {competitor.peer, [&row, &records, batch, competitor, first = true](Notes &notes) mutable {
+                 provide_memory(6 * records.size() * sizeof(Record)); // growing arrays hold two
                  const std::size_t before = allocated_bytes();
                  const auto store = competitor.make(LOCUS_NO_HORIZON);
                  const std::vector<double> pauses = feed<Record>(*store, records, batch);

@@ -1,5 +1,6 @@
 // pmq.readers.1: how fast the writer is beside a reader that scans all the time, on a core of its own.
 #include "tests/bench/harness/cases.hpp"
+#include "tests/bench/harness/machine.hpp"
 #include "tests/bench/pmq/drive.hpp"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ void readers_case(Row &row) {
         std::find_if(all.begin(), all.end(), [&](const auto &record) { return record.time >= oldest; }) - all.begin()));
     const auto contestant = [&](const std::string &peer, bool beside_reader) {
         return Contestant{peer, [&, peer, beside_reader, first = true](Notes &notes) mutable {
+                              provide_memory(4 * live.size() * sizeof(locus_point32));
                               const auto store = make_locus<locus_point32>(Layout::ours, int64_t(horizon) * second);
                               feed<locus_point32>(*store, all.first(warm), batch);
                               double mean;

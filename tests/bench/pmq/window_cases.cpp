@@ -1,5 +1,6 @@
 // pmq.window.* and pmq.taxis.replay: a sliding window at a steady horizon.
 #include "tests/bench/harness/cases.hpp"
+#include "tests/bench/harness/machine.hpp"
 #include "tests/bench/pmq/drive.hpp"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ void window_case(Row &row, const std::vector<locus_point32> &records, std::size_
     std::vector<Contestant> contestants;
     for (const Competitor<locus_point32> &competitor : competitors<locus_point32>(false)) {
         contestants.push_back({competitor.peer, [&, competitor, first = true](Notes &notes) mutable {
+                                   provide_memory(6 * live.size() * sizeof(locus_point32)); // growing arrays hold two
                                    const auto store = competitor.make(horizon);
                                    feed(*store, all.first(timed_from), batch);
                                    const std::vector<double> pauses = feed(*store, all.subspan(timed_from), batch);
