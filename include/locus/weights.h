@@ -34,9 +34,13 @@ typedef struct locus_weights_options {
     uint32_t method;      /* LOCUS_METHOD_; default LOCUS_METHOD_SIBSON */
     uint32_t max_per_row; /* keep only this many largest weights of a row (the seed added first on ties) and normalise
                              them again; default LOCUS_ALL_SEEDS */
-    uint64_t batch_bytes; /* most scratch memory of a call, beside the rows themselves, >= 1 MiB; a call takes fewer
-                             threads rather than more memory, and where the surroundings of a batch of queries do not
-                             fit, natural neighbours are searched query by query; default 1 GiB */
+    uint64_t batch_bytes; /* most scratch memory of a call, beside its list of voxels and the rows themselves, >= 1 MiB;
+                             a call takes fewer threads rather than more memory, and where the surroundings of a batch
+                             of queries do not fit, natural neighbours are searched query by query. The distance ratio
+                             needs 270 bytes (510 where distances or edges exceed 2^27 steps, as mostly with 64-bit
+                             words) a voxel of the box that sixteen neighbouring cells and their supports take, so at
+                             most for (nx + 2)(ny + 2)(nz + 2) voxels. Where one search does not fit, the call fails
+                             with LOCUS_E_MEMORY; default 1 GiB */
     locus_progress_fn progress; /* kept, and called by locus_weights_update too; default NULL */
     void *progress_user;
 } locus_weights_options;
@@ -50,8 +54,8 @@ LOCUS_API locus_status locus_weights_options_init(locus_weights_options *options
  * what every seed weighs before rows are pruned, 8 bytes each, for updates. `options` may be NULL.
  * `*weights` is the caller's, to be ended with locus_weights_destroy; NULL on any error.
  * Errors: LOCUS_E_STATE (the diagram is unsolved, or its graph or seeds changed since), LOCUS_E_ARGUMENT,
- * LOCUS_E_MEMORY, LOCUS_E_STOPPED (by the progress callback). Uses up to the graph's threads. Not beside calls that
- * change the diagram or its graph. Since 0.1. */
+ * LOCUS_E_MEMORY (also of batch_bytes), LOCUS_E_STOPPED (by the progress callback). Uses up to the graph's threads. Not
+ * beside calls that change the diagram or its graph. Since 0.1. */
 LOCUS_API locus_status locus_weights_create(locus_diagram *diagram, const locus_weights_options *options,
                                             const locus_voxel_box *box, locus_weights **weights) LOCUS_NOEXCEPT;
 
@@ -79,9 +83,9 @@ LOCUS_API locus_status locus_weights_rows(const locus_weights *weights, uint64_t
                                           uint64_t *entries) LOCUS_NOEXCEPT;
 
 /* Write `count` rows from `first` on as a dense array of count times `seeds` numbers, row by row: entry [i][j] is the
- * weight of the j-th of the `seeds` seed ids at row first + i, 0 where it weighs nothing. An id that is no seed is
- * LOCUS_E_ARGUMENT. `dense` has room for `capacity` numbers. Errors: LOCUS_E_ARGUMENT, LOCUS_E_CAPACITY. Beside other
- * readers. Since 0.1. */
+ * weight of the j-th of the `seeds` seed ids at row first + i, 0 where it weighs nothing. An id that is no seed, or
+ * stands there twice, is LOCUS_E_ARGUMENT. `dense` has room for `capacity` numbers. Errors: LOCUS_E_ARGUMENT,
+ * LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
 LOCUS_API locus_status locus_weights_dense(const locus_weights *weights, uint64_t first, uint64_t count,
                                            const uint32_t *ids, size_t seeds, float *dense,
                                            size_t capacity) LOCUS_NOEXCEPT;
@@ -97,16 +101,18 @@ LOCUS_API locus_status locus_weights_interpolate(const locus_weights *weights, u
 /* The gradient of one seed's weight, in 1 / unit of length, at `count` voxels from row `first` on: three numbers a row
  * (d/dx, d/dy, d/dz by spacing) from central differences between the 6-neighbours that have rows and an edge of the
  * graph to the voxel between them, one-sided where only one does, 0 where none does. Needs weights made for a box.
- * `gradients` has room for `capacity` numbers. Errors: LOCUS_E_STATE (weights of a list), LOCUS_E_ARGUMENT (no such
- * seed), LOCUS_E_CAPACITY. Beside other readers. Since 0.1. */
+ * `gradients` has room for `capacity` numbers. Errors: LOCUS_E_STATE (weights of a list, or the graph was
+ * edited since they were made or updated), LOCUS_E_ARGUMENT (no such seed), LOCUS_E_CAPACITY. Beside other readers.
+ * Since 0.1. */
 LOCUS_API locus_status locus_weights_gradients(const locus_weights *weights, uint64_t first, uint64_t count,
                                                uint32_t id, float *gradients, size_t capacity) LOCUS_NOEXCEPT;
 
 /* Bring the weights up to date with their diagram after its graph or its seeds changed and it was solved or updated
  * again: only the rows that can have changed are recomputed, and all of them equal those of freshly made weights. Their
  * numbers (with the distance ratio only those of rows that did change), in rising order, go into `changed` with room
- * for `capacity` (NULL with capacity 0: not wanted); `*count` (may be NULL) is how many there are. Works also when the
- * diagram's own handle was destroyed. Errors: LOCUS_E_STATE (the diagram is unsolved, or its graph or seeds changed
+ * for `capacity` (NULL with capacity 0: not wanted); `*count` (may be NULL) is how many there are. Where seeds were
+ * added after so many that the diagram numbered them anew, all rows can have changed. Works also when the diagram's own
+ * handle was destroyed. Errors: LOCUS_E_STATE (the diagram is unsolved, or its graph or seeds changed
  * since), LOCUS_E_CAPACITY (the rows are up to date, the first `capacity` numbers were stored), LOCUS_E_MEMORY and
  * LOCUS_E_STOPPED (the rows are as before). Not beside any other call on the weights, or calls that change the diagram.
  * Since 0.1. */

@@ -81,7 +81,7 @@ static void rows_of_weights(const locus_weights *weights) {
     static uint64_t offsets[VOXELS + 1];
     static uint32_t ids[3 * VOXELS];
     static float values[3 * VOXELS], dense[3 * VOXELS];
-    const uint32_t all[3] = {3, 5, 9}, unknown[1] = {4};
+    const uint32_t all[3] = {3, 5, 9}, unknown[1] = {4}, twice[2] = {9, 9};
     const float at_seeds[6] = {1, 10, 2, 20, 3, 30};
     uint64_t rows = 0, entries = 0, needed = 0, i, j;
 
@@ -116,6 +116,7 @@ static void rows_of_weights(const locus_weights *weights) {
     REFUSES(locus_weights_dense(weights, 0, 1, NULL, 3, dense, 3), LOCUS_E_ARGUMENT, "ids");
     REFUSES(locus_weights_dense(weights, 0, 1, all, 3, NULL, 3), LOCUS_E_ARGUMENT, "dense");
     REFUSES(locus_weights_dense(weights, 0, 1, unknown, 1, dense, 3), LOCUS_E_ARGUMENT, "id 4");
+    REFUSES(locus_weights_dense(weights, 0, 1, twice, 2, dense, 3), LOCUS_E_ARGUMENT, "ids[1] is 9");
     REFUSES(locus_weights_dense(weights, 0, 2, all, 3, dense, 5), LOCUS_E_CAPACITY, "capacity is 5");
 
     WORKS(locus_weights_interpolate(weights, 0, rows, at_seeds, 2, dense, 2 * VOXELS));

@@ -4,6 +4,7 @@
 #include "graph/weights/field.hpp"
 #include "tests/unit/graph/support.hpp"
 
+#include <array>
 #include <limits>
 #include <random>
 #include <vector>
@@ -17,8 +18,7 @@ struct Solved {
     std::vector<Source> sources;
     Words words;
 
-    Solved(const locus_graph_options &options, const std::vector<float> &material, uint32_t seeds, uint32_t random,
-           uint64_t cutoff = UINT64_MAX)
+    Solved(const locus_graph_options &options, const std::vector<float> &material, uint32_t seeds, uint32_t random)
         : graph(options, material.data()) {
         std::mt19937 rng(random);
         while (sources.size() < seeds) {
@@ -26,7 +26,7 @@ struct Solved {
             if (graph.passable(voxel))
                 sources.push_back({voxel, 0, static_cast<uint32_t>(sources.size())});
         }
-        solve(cutoff);
+        solve();
     }
     void solve(uint64_t cutoff = UINT64_MAX) {
         Progress progress;
@@ -34,6 +34,15 @@ struct Solved {
     }
     Field field() const { return {graph, words}; }
 };
+
+// 32-bit words, whose distances fit 32-bit lanes, and 64-bit ones, whose distances do not.
+inline std::array<locus_graph_options, 2> both_widths(locus_graph_options options) {
+    options.max_seeds = 255;
+    options.word_bits = LOCUS_WORD_32;
+    auto wide = options;
+    wide.word_bits = LOCUS_WORD_64;
+    return {options, wide};
+}
 
 // Compliances 1..10 at random, `holes` of 1 impassable.
 inline std::vector<float> noise(uint64_t voxels, uint32_t random, double holes = 0) {

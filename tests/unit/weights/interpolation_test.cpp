@@ -1,66 +1,16 @@
-// The weights object: rows of boxes and lists, what is derived from them, and updates after edits.
-#include "fields.hpp"
+// The weights object: rows of boxes and lists, what is derived from them, progress and cancel.
 #include "graph/cuts.hpp"
-#include "graph/weights/interpolation.hpp"
-#include "naive.hpp"
+#include "model.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 namespace locus::graph {
 namespace {
-
-locus_weights_options method(uint32_t method, uint32_t most = 0) {
-    return {sizeof(locus_weights_options), method, most, uint64_t{1} << 30, nullptr, nullptr};
-}
-
-// A graph with a diagram that can be edited.
-struct Model {
-    std::shared_ptr<Graph> graph;
-    std::shared_ptr<Diagram> diagram;
-
-    Model(const locus_graph_options &options, const std::vector<float> &material)
-        : graph(std::make_shared<Graph>(options, material.data())),
-          diagram(std::make_shared<Diagram>(graph, plain_options())) {}
-
-    static locus_diagram_options plain_options() {
-        locus_diagram_options options{};
-        options.struct_size = sizeof options;
-        options.max_distance = std::numeric_limits<double>::infinity();
-        return options;
-    }
-
-    void seed(uint32_t id, uint64_t voxel) {
-        const auto [x, y, z] = graph->grid().place(voxel);
-        const locus_seed seed = {x, y, z, 0, id, 0};
-        diagram->add_seeds({&seed, 1});
-    }
-    void solve() {
-        Progress progress;
-        diagram->solve(progress);
-    }
-};
-
-Model noisy(uint32_t random) {
-    auto options = options_for(26, 14, 9);
-    options.material_min = 0.5, options.material_max = 50;
-    Model model(options, noise(26 * 14 * 9, random, 0.05));
-    std::mt19937 rng(random);
-    for (uint32_t id = 100; id < 112;) {
-        const uint64_t voxel = rng() % model.graph->grid().voxels();
-        if (model.graph->passable(voxel))
-            model.seed(id++, voxel);
-    }
-    model.solve();
-    return model;
-}
-
-void expect_same(const Interpolation &a, const Interpolation &b) {
-    ASSERT_EQ(a.ids(), b.ids());
-    ASSERT_EQ(a.rows().offsets, b.rows().offsets);
-    ASSERT_EQ(a.rows().shares, b.rows().shares);
-}
 
 TEST(Interpolation, BoxesAndListsGiveTheSameRows) {
     const Model model = noisy(1);
@@ -149,102 +99,107 @@ TEST(Interpolation, GradientsOfABar) {
     }
 }
 
-TEST(Interpolation, UpdatesEqualFreshWeightsAndTouchFewRows) {
-    for (const uint32_t kind : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE, LOCUS_METHOD_DISTANCE_RATIO}) {
-        Model model = noisy(4 + kind);
-        const Grid &grid = model.graph->grid();
-        Interpolation weights(model.diagram, method(kind, 5), grid.whole());
-        std::mt19937 rng(kind);
-        for (int round = 0; round < 12; ++round) {
-            const Rows before = weights.rows();
-            const std::vector<uint32_t> ids_before = weights.ids();
-            const Box box = {{rng() % 23, rng() % 11, rng() % 7}, {2, 2, 2}};
-            const std::vector<uint32_t> ids = weights.ids();
-            switch (round % 4) {
-            case 0:
-                model.graph->fill_box(box, 40);
-                break;
-            case 1:
-                model.graph->fill_box(box, 0.6f);
-                break;
-            case 2: {
-                const auto [x, y, z] = grid.place(rng() % grid.voxels());
-                if (model.graph->passable(grid.index(x, y, z)))
-                    model.diagram->move_seed(ids[rng() % ids.size()], x, y, z);
-                break;
-            }
-            default:
-                if (round == 7)
-                    model.diagram->remove_seeds({&ids[2], 1});
-                else if (model.graph->passable(round * 100ul))
-                    model.seed(200 + static_cast<uint32_t>(round), round * 100ul);
-            }
-            model.solve();
-            const std::vector<uint64_t> changed = weights.update();
-            expect_same(weights, Interpolation(model.diagram, method(kind, 5), grid.whole()));
-            EXPECT_TRUE(std::ranges::is_sorted(changed));
-            if (round % 4 < 2) {
-                EXPECT_LT(changed.size(), grid.voxels());
-            }
-            // Rows that were not named are as they were.
-            std::vector<bool> named(grid.voxels());
-            for (const uint64_t row : changed)
-                named[row] = true;
-            for (uint64_t row = 0; row < grid.voxels(); ++row) {
-                if (named[row])
+// In a box inside the grid, with holes and a cut: from the weights of those neighbours that an edge joins.
+TEST(Interpolation, GradientsStopAtHolesAndCutsAndTheBox) {
+    auto options = options_for(26, 14, 9);
+    options.spacing[1] = 1.5, options.spacing[2] = 0.7;
+    Model model(options, noise(26 * 14 * 9, 51, 0.1));
+    std::mt19937 rng(52);
+    for (uint32_t id = 100; id < 106;)
+        if (const uint64_t voxel = rng() % model.graph->grid().voxels(); model.graph->passable(voxel))
+            model.seed(id++, voxel);
+    ASSERT_GT(cut_by_plane(*model.graph, {12.3, 0, 0}, {1, 0.1, 0}, model.graph->grid().whole()), 0u);
+    model.solve();
+    const Grid &grid = model.graph->grid();
+    const Box box = {{4, 2, 1}, {17, 10, 6}};
+    const Interpolation weights(model.diagram, method(LOCUS_METHOD_SIBSON), box);
+    const uint32_t id = weights.ids()[2];
+    std::vector<float> gradients(weights.count() * 3), of_seed(weights.count());
+    weights.gradients(0, weights.count(), id, gradients.data());
+    weights.dense(0, weights.count(), {&id, 1}, of_seed.data());
+    std::array<uint64_t, 3> met{}; // voxels with 0, 1 and 2 neighbours that count
+    for (uint64_t row = 0; row < weights.count(); ++row) {
+        const std::array<uint64_t, 3> place = {4 + row % 17, 2 + row / 17 % 10, 1 + row / 170};
+        for (unsigned a = 0; a < 3; ++a) {
+            std::vector<std::pair<double, double>> line = {{0, of_seed[row]}}; // where, and the weight there
+            for (const Neighbour &to : grid.neighbours()) {
+                const std::array<int, 3> step = {to.dx, to.dy, to.dz};
+                if (std::abs(to.dx) + std::abs(to.dy) + std::abs(to.dz) != 1 || step[a] == 0)
                     continue;
-                const auto a = before.row(row), b = weights.rows().row(row);
-                ASSERT_EQ(a.size(), b.size());
-                for (size_t i = 0; i < a.size(); ++i) {
-                    ASSERT_EQ(ids_before[a[i].label], weights.ids()[b[i].label]);
-                    ASSERT_EQ(a[i].weight, b[i].weight);
-                }
+                auto there = place;
+                there[a] += static_cast<uint64_t>(step[a]);
+                const uint64_t other = there[0] - 4 + 17 * (there[1] - 2 + 10 * (there[2] - 1));
+                if (there[a] < box.origin[a] || there[a] >= box.origin[a] + box.extent[a] ||
+                    model.graph->weight(grid.index(place[0], place[1], place[2]), to) == 0 ||
+                    weights.rows().row(other).empty())
+                    continue;
+                line.emplace_back(step[a] * grid.spacing()[a], of_seed[other]);
             }
+            std::ranges::sort(line);
+            const double run = line.back().first - line.front().first;
+            const double expected = run > 0 ? (line.back().second - line.front().second) / run : 0;
+            ASSERT_NEAR(gradients[row * 3 + a], expected, 1e-6) << "row " << row << ", axis " << a;
+            ++met[line.size() - 1];
         }
-        EXPECT_TRUE(weights.update().empty());
     }
+    for (const uint64_t voxels : met)
+        EXPECT_GT(voxels, 0u);
+    model.graph->fill_box({{0, 0, 0}, {1, 1, 1}}, 2);
+    EXPECT_THROW(weights.gradients(0, 1, id, gradients.data()), Error);
 }
 
-// Boxes closed, softened and stiffened, a cut, seeds moved among many: fresh weights each time.
-TEST(Interpolation, DistanceRatiosFollowChangesAmongManySeeds) {
-    auto options = options_for(60, 26, 12);
-    options.material_min = 0.5, options.material_max = 50;
-    Model model(options, noise(60 * 26 * 12, 31, 0.02));
-    const Grid &grid = model.graph->grid();
-    std::mt19937 rng(32);
-    const auto anywhere = [&] {
-        uint64_t voxel = rng() % grid.voxels();
-        while (!model.graph->passable(voxel))
-            voxel = rng() % grid.voxels();
-        return voxel;
-    };
-    for (uint32_t id = 0; id < 150; ++id)
-        model.seed(id, anywhere());
-    model.solve();
-    for (const uint32_t most : {0u, 4u}) {
-        Interpolation weights(model.diagram, method(LOCUS_METHOD_DISTANCE_RATIO, most), grid.whole());
-        uint64_t touched = 0;
-        const float values[] = {std::numeric_limits<float>::quiet_NaN(), 40, 0.6f, 3};
-        for (uint32_t round = 0; round < 5; ++round) {
-            if (round == 2) {
-                cut_by_plane(*model.graph, {20.3, 0, 0}, {1, 0.2, 0}, {{14, 3, 2}, {14, 9, 8}});
-            } else if (round % 5 == 4) {
-                const auto [x, y, z] = grid.place(anywhere());
-                model.diagram->move_seed(static_cast<uint32_t>(rng() % 150), x, y, z);
-            } else {
-                model.graph->fill_box({{rng() % 57, rng() % 23, rng() % 9}, {3, 3, 3}}, values[round % 4]);
-                for (const Seed &seed : model.diagram->solved_seeds())
-                    if (!model.graph->passable(seed.voxel)) {
-                        const auto [x, y, z] = grid.place(anywhere());
-                        model.diagram->move_seed(seed.id, x, y, z);
-                    }
-            }
-            model.solve();
-            const std::vector<uint64_t> rows = weights.update();
-            touched += rows.size();
-            expect_same(weights, Interpolation(model.diagram, method(LOCUS_METHOD_DISTANCE_RATIO, most), grid.whole()));
+// What a caller hears, and when to stop.
+struct Listener {
+    std::vector<double> heard;
+    size_t stop_at = SIZE_MAX; // the call that is answered with a stop
+
+    static int32_t listen(double fraction, void *user) {
+        Listener &self = *static_cast<Listener *>(user);
+        self.heard.push_back(fraction);
+        return self.heard.size() == self.stop_at ? 1 : 0;
+    }
+    // The work stops at that call, and says so.
+    void expect_stop(size_t at, const std::function<void()> &work) {
+        heard.clear();
+        stop_at = at;
+        try {
+            work();
+            ADD_FAILURE() << "not stopped at call " << at;
+        } catch (const Error &error) {
+            EXPECT_EQ(error.status(), LOCUS_E_STOPPED);
         }
-        EXPECT_LT(touched, 5 * grid.voxels() / 2);
+        EXPECT_EQ(heard.size(), at);
+        stop_at = SIZE_MAX;
+    }
+};
+
+TEST(Interpolation, ProgressRisesAndAStopLeavesTheRowsAsTheyWere) {
+    for (const uint32_t kind : {LOCUS_METHOD_SIBSON, LOCUS_METHOD_LAPLACE, LOCUS_METHOD_DISTANCE_RATIO}) {
+        auto in_one_thread = options_for(24, 20, 10);
+        in_one_thread.threads = 1;
+        Model model(in_one_thread, noise(24 * 20 * 10, 71));
+        for (uint32_t id = 0; id < 40; ++id)
+            model.seed(id, id * 117);
+        model.solve();
+        Listener listener;
+        locus_weights_options options = method(kind);
+        options.progress = Listener::listen;
+        options.progress_user = &listener;
+        const Box all = model.graph->grid().whole();
+        Interpolation weights(model.diagram, options, all);
+        ASSERT_GE(listener.heard.size(), 3u);
+        EXPECT_TRUE(std::ranges::is_sorted(listener.heard));
+        EXPECT_EQ(listener.heard.back(), 1);
+        listener.expect_stop(2, [&] { Interpolation(model.diagram, options, all); });
+
+        const Rows before = weights.rows();
+        model.graph->fill_box({{5, 5, 5}, {3, 3, 3}}, 9);
+        model.solve();
+        listener.expect_stop(1, [&] { weights.update(); });
+        EXPECT_EQ(weights.rows().offsets, before.offsets);
+        EXPECT_EQ(weights.rows().shares, before.shares);
+        EXPECT_GT(weights.update().size(), 0u);
+        expect_same(weights, Interpolation(model.diagram, method(kind), all));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "graph/weights/field.hpp"
 #include "graph/weights/rows.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>
@@ -173,13 +174,20 @@ inline std::vector<Row> ratio(const Field &field, const std::vector<Source> &see
     return rows;
 }
 
-// The row as the library gives it.
+// The row as the library gives it: the `most` largest (0: all), the smaller label first on ties, divided by their sum.
 inline std::vector<Share> finished(const Row &row, uint32_t most = 0) {
-    std::vector<RawShare> raw;
+    std::vector<std::pair<double, uint32_t>> sorted; // the smallest of these is the largest weight
     for (const auto &[label, weight] : row)
-        raw.push_back({label, weight});
+        sorted.emplace_back(-weight, label);
+    std::ranges::sort(sorted);
+    if (most != 0 && sorted.size() > most)
+        sorted.resize(most);
+    double sum = 0;
+    for (const auto &[negative, label] : sorted)
+        sum -= negative;
     std::vector<Share> shares;
-    finish_row(raw, most, shares);
+    for (const auto &[negative, label] : sorted)
+        shares.push_back({label, static_cast<float>(-negative / sum)});
     return shares;
 }
 
