@@ -59,7 +59,7 @@ TEST(CudaSibson, WidensWindowsThatAreTooSmall) {
 }
 
 TEST(CudaSibson, KeepsToCutEdgesAndToWhatWasReached) {
-    Solved solved(options_for(14, 13, 12), noise(14 * 13 * 12, 8, 0.3), 5, 9, 60);
+    Solved solved(options_for(14, 13, 12), noise(14 * 13 * 12, 8, 0.3), 5, 9);
     std::vector<uint64_t> voxels;
     std::vector<uint16_t> masks;
     std::mt19937 random(4);
