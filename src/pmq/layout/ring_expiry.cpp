@@ -13,7 +13,7 @@ namespace {
 
 constexpr unsigned rounds_per_refill = 8;
 constexpr double most_for_time = 32;   // leaves per call that are looked at beyond what the records inserted pay for
-constexpr size_t most_alone = 1 << 16; // records of a store for whose removals readers may wait
+constexpr size_t most_short = 1 << 16; // records of a store for whose removals readers may wait
 
 } // namespace
 
@@ -259,7 +259,7 @@ void RingLeaves::sweep(Eviction &eviction, Departures &departures) {
 // Remove everything that may go by a moment, which becomes the current one.
 void RingLeaves::sweep_all(const Moment &moment, Eviction &eviction, Departures &departures) {
     std::vector<Cut> cuts = decide(0, directory().size(), moment.cutoff, eviction, true);
-    const Change change(*this, edition_->stored <= most_alone);
+    const Change change(*this, edition_->stored <= most_short);
     remove(cuts, departures);
     edition().moment = moment;
     floor_ = INT64_MIN;
@@ -292,7 +292,7 @@ void RingLeaves::erase(const Selection &selection, Departures &departures) {
     for (Cut &cut : cuts)
         if (cut.marked == now.directory[cut.node]->leaf[cut.leaf].count)
             cut.everything();
-    const Change change(*this, now.stored <= most_alone);
+    const Change change(*this, now.stored <= most_short);
     remove(cuts, departures);
     tidy_all();
 }

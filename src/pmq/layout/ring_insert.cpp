@@ -11,8 +11,8 @@ namespace locus::pmq {
 namespace {
 
 constexpr size_t group_size = 32;
-// Readers may have to wait for a change of so many records; larger batches leave the version they read alone.
-constexpr size_t most_alone = 8192;
+// Readers may have to wait for a change of so many records; larger batches are written into copies.
+constexpr size_t most_short = 8192;
 
 } // namespace
 
@@ -20,7 +20,7 @@ void RingLeaves::insert(const Batch &batch, Eviction &eviction, Departures &depa
     uint64_t ties = 0;
     admit_late(batch, eviction, departures);
     {
-        const Change change(*this, batch.count <= most_alone);
+        const Change change(*this, batch.count <= most_short);
         append(batch);
         try {
             edition().moment = clock(batch, eviction.moment(), ties);

@@ -36,17 +36,23 @@ RingLeaves::~RingLeaves() {
         delete std::exchange(spare_nodes_, spare_nodes_->next);
 }
 
-RingLeaves::Change::Change(RingLeaves &store, bool alone) : store_(store) { store_.begin(alone); }
+RingLeaves::Change::Change(RingLeaves &store, bool is_short) : store_(store) { store_.begin(is_short); }
 RingLeaves::Change::~Change() { store_.finish(); }
 
-void RingLeaves::begin(bool alone) {
-    alone_ = versions_.begin(alone, oldest_read_);
+void RingLeaves::begin(bool is_short) {
+    read_ = versions_.begin(is_short);
+    alone_ = read_.until == 0;
     edition_ = versions_.current();
     change_ = edition_->version + 1;
-    if (alone_)
+    if (edition_->version >= read_.until)
         return;
-    expect_garbage(1);
-    edition_ = new Edition(*edition_);
+    try {
+        expect_garbage(1);
+        edition_ = new Edition(*edition_);
+    } catch (...) {
+        versions_.publish(*edition_);
+        throw;
+    }
 }
 
 void RingLeaves::finish() noexcept {
@@ -156,7 +162,7 @@ Node &RingLeaves::own(size_t position) {
     Node *node = directory()[position];
     if (node->version == change_)
         return *node;
-    if (!alone_) {
+    if (node->version < read_.until) {
         expect_garbage(1);
         Node *copy = take_node();
         *copy = *node;
@@ -165,7 +171,7 @@ Node &RingLeaves::own(size_t position) {
         node = copy;
     }
     node->version = change_;
-    if (node->ghost_version != 0 && (alone_ || node->ghost_version <= oldest_read_)) {
+    if (node->ghost_version != 0 && (alone_ || node->ghost_version <= read_.oldest)) {
         for (LeafEntry &leaf : node->leaf)
             leaf.ghosts = 0;
         node->ghost_version = 0;

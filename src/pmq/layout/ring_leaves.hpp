@@ -37,7 +37,7 @@ private:
     // From construction to destruction the directory may be changed; then the new version is published.
     class Change {
     public:
-        Change(RingLeaves &store, bool alone);
+        Change(RingLeaves &store, bool is_short);
         ~Change();
         Change(const Change &) = delete;
         Change &operator=(const Change &) = delete;
@@ -87,7 +87,7 @@ private:
     };
 
     // ring_leaves.cpp: versions and their memory
-    void begin(bool alone);
+    void begin(bool is_short);
     void finish() noexcept;
     void collect_garbage() noexcept;
     void expect_garbage(size_t things);
@@ -175,8 +175,8 @@ private:
     mutable Versions versions_;
     Edition *edition_ = nullptr; // the current one, or during a change the one to come
     uint64_t change_ = 0;        // the version being made
-    uint64_t oldest_read_ = 0;
-    bool alone_ = false;
+    Versions::Read read_{};
+    bool alone_ = false; // nobody reads
     std::vector<Garbage> garbage_;
     size_t garbage_leaves_ = 0, garbage_next_ = 0,
            discarded_ = 0; // the leaves in it; the next to be looked at; new ones

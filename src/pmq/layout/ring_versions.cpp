@@ -5,9 +5,15 @@
 
 namespace locus::pmq {
 
+void Versions::await_change(std::unique_lock<std::mutex> &lock) {
+    ++waiting_;
+    change_ended_.wait(lock, [this] { return !closed_; });
+    --waiting_;
+}
+
 const Edition &Versions::pin() {
     std::unique_lock lock(mutex_);
-    change_ended_.wait(lock, [this] { return !alone_; });
+    await_change(lock);
     ++readers_[current_->version];
     return *current_;
 }
@@ -33,7 +39,7 @@ void Versions::drop_reader(uint64_t version) noexcept {
 
 void Versions::hold(Hold &hold) {
     std::unique_lock lock(mutex_);
-    change_ended_.wait(lock, [this] { return !alone_; });
+    await_change(lock);
     holds_.push_back(&hold);
     try {
         ++readers_[current_->version];
@@ -53,18 +59,19 @@ void Versions::release(Hold &hold) noexcept {
     drop_reader(hold.version);
 }
 
-bool Versions::begin(bool alone, uint64_t &oldest_read) noexcept {
+Versions::Read Versions::begin(bool is_short) noexcept {
     const std::lock_guard lock(mutex_);
-    alone_ = alone && readers_.empty();
-    oldest_read = readers_.empty() ? current_->version : readers_.begin()->first;
-    return alone_;
+    closed_ = is_short && waiting_ == 0;
+    const uint64_t oldest = readers_.empty() ? current_->version : readers_.begin()->first;
+    const uint64_t until = !closed_ ? UINT64_MAX : readers_.empty() ? 0 : readers_.rbegin()->first + 1;
+    return {oldest, until};
 }
 
 void Versions::publish(Edition &edition) noexcept {
     {
         const std::lock_guard lock(mutex_);
         current_ = &edition;
-        alone_ = false;
+        closed_ = false;
     }
     change_ended_.notify_all();
 }

@@ -1,6 +1,7 @@
-// One writer and any number of readers: who reads which version of the directory. The writer changes the current
-// version in place while nobody reads (readers that come then wait for the end of that short change); otherwise it
-// copies what it changes, and readers never wait. What a version has lost is kept until nobody can see it.
+// One writer and any number of readers: who reads which version of the directory. The writer copies what it changes
+// where a reader may see it, once for each version that is read, and changes the rest in place: readers that come
+// during a short change wait for its end, and the next one does not let them wait again. What a version has lost is
+// kept until nobody can see it.
 #pragma once
 
 #include "pmq/layout/ring_directory.hpp"
@@ -39,9 +40,12 @@ public:
     void hold(Hold &hold);
     void release(Hold &hold) noexcept;
 
-    // The writer: start a change, alone if nobody reads and that is wanted. The oldest version that may be read until
-    // the next start is stored in `oldest_read`.
-    bool begin(bool alone, uint64_t &oldest_read) noexcept;
+    // What may be read until the end of a change: versions from `oldest` on, and below `until`.
+    struct Read {
+        uint64_t oldest, until;
+    };
+    // The writer: start a change. If it is short and nobody waits since the last one, those who come wait for its end.
+    Read begin(bool is_short) noexcept;
     void publish(Edition &edition) noexcept;
     // The versions that are read, ascending. Later readers come to the current one.
     void readers(std::vector<uint64_t> &versions) const;
@@ -50,13 +54,15 @@ public:
     Edition *current() const noexcept { return current_; }
 
 private:
+    void await_change(std::unique_lock<std::mutex> &lock);
     void drop_reader(uint64_t version) noexcept;
 
     mutable std::mutex mutex_;
     std::condition_variable change_ended_;
     std::map<uint64_t, size_t> readers_; // per version
     std::list<Hold *> holds_;            // the oldest first
-    bool alone_ = false;
+    bool closed_ = false;                // to those who come
+    size_t waiting_ = 0;
     Edition *current_ = nullptr;
 };
 
