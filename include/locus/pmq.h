@@ -18,11 +18,11 @@ typedef struct locus_pmq_snapshot locus_pmq_snapshot;
 
 /* Threads. One thread at a time changes a store (insert, sweep, erase) or checks it; a second one gets LOCUS_E_BUSY and
  * nothing happens. Any number of threads may ask at the same time, beside the writer, too. Each answer is that of one
- * moment between two batches. With ring leaves nobody waits for readers, and a reader that
- * comes during a small change waits for its end, less than a millisecond as a rule, but never for two. With the packed
- * array readers wait while a change is made, and a change waits for the readers that are at work. Callbacks are called
- * without locks, but for the packed array's: its predicate keeps readers waiting, a reader's filter or visitor the
- * writer, and neither may ask the store. */
+ * moment between two batches. With ring leaves nobody waits for readers, and a reader that comes during a small
+ * change waits for its end, less than a millisecond as a rule, but never for two. With the packed array readers wait
+ * while a change is made, and a change waits for the readers that are at work. Callbacks are called without locks, but
+ * for the packed array's: its predicate keeps readers waiting, a reader's filter or visitor the writer, and neither may
+ * ask the store. */
 
 /* The record layouts, by size. Latitudes are -90..90 and longitudes -180..180 degrees (180 and -180 are the same
  * meridian and keep the value given; the key takes it as -180); times are microseconds since 1970-01-01 UTC.

@@ -18,8 +18,7 @@ namespace {
 int this_core() { return sched_getcpu(); }
 
 // On a busy machine a new thread may come to lie on its maker's core, and the two take turns there for longer than the
-// whole call. Step aside, once: afterwards the
-// thread may run wherever it might before.
+// whole call. Step aside, once: afterwards the thread may run wherever it might before.
 void leave_core(int core) {
     cpu_set_t allowed;
     if (core < 0 || core >= CPU_SETSIZE || this_core() != core || sched_getaffinity(0, sizeof allowed, &allowed) != 0 ||
