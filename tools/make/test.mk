@@ -18,7 +18,9 @@ $(UNIT_OBJECTS): EXTRA_CPPFLAGS += -I.
 # With clang -Wconversion means signs too, which would only clutter the tests with casts.
 $(UNIT_OBJECTS): EXTRA_CXXFLAGS += -Wno-sign-conversion $(QUICKLY)
 $(UNIT_OBJECTS): | $(call needs,test)
-UNIT_LIBS_pmq := -Wl,--wrap=mmap
+# Calls that a test can make fail.
+UNIT_WRAPPED_pmq := mmap open pread pwrite fsync fdatasync ftruncate rename unlink mkdir
+UNIT_LIBS_pmq := $(UNIT_WRAPPED_pmq:%=-Wl,--wrap=%)
 
 UNIT_JOBS_io := io
 UNIT_JOBS_cold := cold

@@ -13,14 +13,6 @@
 namespace locus::test {
 namespace {
 
-locus_pmq_options options_of(const LayoutChoice &layout, uint32_t record, int64_t horizon = LOCUS_NO_HORIZON) {
-    locus_pmq_options options = default_options();
-    options.record = record;
-    options.horizon = horizon;
-    layout.apply(options);
-    return options;
-}
-
 StoreHandle filled(const locus_pmq_options &options, Changes &changes, int batches, size_t most) {
     locus_pmq *pmq = nullptr;
     EXPECT_EQ(locus_pmq_create(&options, &pmq), LOCUS_OK) << locus_last_error();
@@ -30,10 +22,6 @@ StoreHandle filled(const locus_pmq_options &options, Changes &changes, int batch
         changes.now += 50;
     }
     return StoreHandle(pmq);
-}
-
-void save_to(const StoreHandle &pmq, const std::string &path) {
-    ASSERT_EQ(locus_pmq_save(pmq.get(), nullptr, path.c_str(), nullptr, nullptr), LOCUS_OK) << locus_last_error();
 }
 
 int32_t count_record(const void *, void *user) {
@@ -238,93 +226,6 @@ TEST(SavedFile, ForgedContentIsRefused) {
     expect_refused([](Header &h, Records &) { h.block_records = 2; }, "a file of");
     expect_refused([](Header &h, Records &) { h.cutoff = 101; }, "cutoff 101");
     expect_refused([](Header &h, Records &) { h.bytes += 8; }, "a file of");
-}
-
-// Files that several threads read, in groups of blocks.
-class LargeFile : public testing::Test {
-protected:
-    static constexpr size_t records = 420'000, record = 32, block_bytes = 8 + 8192 * record;
-
-    LargeFile() {
-        options.horizon = 100'000;
-        Places draw(5);
-        std::vector<Item> items(records);
-        for (size_t i = 0; i < records; ++i) {
-            items[i].latitude = static_cast<double>(draw.below(120'000)) / 1000 - 60;
-            items[i].longitude = static_cast<double>(draw.below(340'000)) / 1000 - 170;
-            items[i].time = 200'000 + static_cast<int64_t>(i);
-            items[i].id = i;
-        }
-        batch = pack(items, record);
-        pmq = filled_with(items.size());
-        save_to(pmq, path);
-    }
-    StoreHandle filled_with(size_t count) const {
-        locus_pmq_options all = options;
-        all.horizon = LOCUS_NO_HORIZON;
-        locus_pmq *made = nullptr;
-        EXPECT_EQ(locus_pmq_create(&all, &made), LOCUS_OK);
-        EXPECT_EQ(locus_pmq_insert(made, batch.data(), count, 200'000 + records), LOCUS_OK) << locus_last_error();
-        return StoreHandle(made);
-    }
-    static size_t offset(size_t block) { return sizeof(pmq::SavedHeader) + block * block_bytes; }
-    // Loading what was changed says so.
-    void expect_refused(const FileBytes &bytes, const std::string &words) const {
-        write_file(path, bytes);
-        locus_pmq *loaded = nullptr;
-        EXPECT_EQ(locus_pmq_load(path.c_str(), nullptr, nullptr, nullptr, &loaded), LOCUS_E_FORMAT);
-        EXPECT_EQ(loaded, nullptr);
-        EXPECT_NE(std::string(locus_last_error()).find(words), std::string::npos) << locus_last_error();
-    }
-
-    Scratch folder;
-    const std::string path = folder / "saved";
-    locus_pmq_options options = options_of(layouts[0], record);
-    std::vector<unsigned char> batch;
-    StoreHandle pmq;
-};
-
-TEST_F(LargeFile, ComesBackWholeOrWithinTheHorizon) {
-    const StoreHandle whole = load_store(path, nullptr);
-    ASSERT_EQ(locus_pmq_check(whole.get()), LOCUS_OK) << locus_last_error();
-    EXPECT_EQ(content_of(whole.get(), record).records, content_of(pmq.get(), record).records);
-
-    const StoreHandle recent = load_store(path, &options);
-    ASSERT_EQ(locus_pmq_check(recent.get()), LOCUS_OK) << locus_last_error();
-    locus_pmq_query query{};
-    ASSERT_EQ(locus_pmq_query_init(&query, sizeof query), LOCUS_OK);
-    query.time_from = 200'000 + static_cast<int64_t>(records) - options.horizon;
-    uint64_t wanted = 0, found = 0;
-    ASSERT_EQ(locus_pmq_count(pmq.get(), &query, &wanted), LOCUS_OK);
-    ASSERT_EQ(locus_pmq_count(recent.get(), nullptr, &found), LOCUS_OK);
-    EXPECT_EQ(found, wanted);
-    EXPECT_GT(found, 90'000u);
-}
-
-TEST_F(LargeFile, NamesTheFirstOfSeveralDamages) {
-    const FileBytes whole = file_bytes(path);
-    for (const auto &[first, second] : {std::pair(3, 20), std::pair(23, 24), std::pair(30, 50)}) {
-        FileBytes bytes = whole;
-        for (const int block : {first, second})
-            bytes[offset(static_cast<size_t>(block)) + 1000] ^= 1;
-        expect_refused(bytes, "block " + std::to_string(first) + " ");
-    }
-}
-
-// Within a group of blocks and where two groups meet.
-TEST_F(LargeFile, KeysOutOfOrderBetweenBlocksAreRefused) {
-    const FileBytes whole = file_bytes(path);
-    for (const size_t block : {4u, 23u, 24u}) {
-        FileBytes bytes = whole;
-        const auto at = [&](size_t i) { return bytes.begin() + static_cast<ptrdiff_t>(offset(i)); };
-        std::swap_ranges(at(block), at(block + 1), at(block + 1));
-        for (const size_t i : {block, block + 1}) {
-            const auto content = std::as_bytes(std::span(bytes)).subspan(offset(i) + 8, block_bytes - 8);
-            const uint64_t sum = checksum(content, i);
-            std::memcpy(&bytes[offset(i)], &sum, sizeof sum);
-        }
-        expect_refused(bytes, "byte " + std::to_string(offset(block + 1) + 8) + ": a record out of the order of keys");
-    }
 }
 
 int32_t cancel_third(double, void *user) { return ++*static_cast<int *>(user) >= 3; }

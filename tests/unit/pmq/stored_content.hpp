@@ -36,6 +36,10 @@ inline Content content_of(const locus_pmq *pmq, uint32_t record, const locus_pmq
     return content;
 }
 
+inline void save_to(const StoreHandle &pmq, const std::string &path) {
+    ASSERT_EQ(locus_pmq_save(pmq.get(), nullptr, path.c_str(), nullptr, nullptr), LOCUS_OK) << locus_last_error();
+}
+
 inline StoreHandle load_store(const std::string &path, const locus_pmq_options *options) {
     locus_pmq *pmq = nullptr;
     EXPECT_EQ(locus_pmq_load(path.c_str(), options, nullptr, nullptr, &pmq), LOCUS_OK) << locus_last_error();

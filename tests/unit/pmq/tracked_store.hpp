@@ -84,6 +84,14 @@ inline locus_pmq_options default_options() {
     return options;
 }
 
+inline locus_pmq_options options_of(const LayoutChoice &layout, uint32_t record, int64_t horizon = LOCUS_NO_HORIZON) {
+    locus_pmq_options options = default_options();
+    options.record = record;
+    options.horizon = horizon;
+    layout.apply(options);
+    return options;
+}
+
 inline locus_pmq_query default_query() {
     locus_pmq_query query;
     locus_pmq_query_init(&query, sizeof query);
