@@ -1,6 +1,6 @@
 // Removal: what has expired or may go is found a few leaves per batch, in the proportion of the records that come in,
-// so that a round over all leaves ends before the store has taken in an eighth of its size. A record thus outlives its
-// time in its slot by one round at most, and slots grow by no more than that; readers do not see it.
+// so that a round over all leaves ends before the store has taken in a sixteenth of its size. A record thus outlives
+// its time in its slot by one round at most, and slots grow by no more than that; readers do not see it.
 #include "pmq/eviction.hpp"
 #include "pmq/layout/ring_leaves.hpp"
 #include "pmq/layout/ring_view.hpp"
@@ -11,7 +11,7 @@
 namespace locus::pmq {
 namespace {
 
-constexpr unsigned rounds_per_refill = 8;
+constexpr unsigned rounds_per_refill = 16;
 constexpr double most_for_time = 32;   // leaves per call that are looked at beyond what the records inserted pay for
 constexpr size_t most_short = 1 << 16; // records of a store for whose removals readers may wait
 
@@ -105,7 +105,7 @@ void RingLeaves::remove(std::vector<Cut> &cuts, Departures &departures) {
     expect_garbage(cuts.size());
     try {
         for (Cut &cut : cuts)
-            if (!alone_ && cut.marked > 0)
+            if (cut.marked > 0 && !unread(directory()[cut.node]->leaf[cut.leaf].born))
                 cut.fresh = slabs_.take();
     } catch (...) {
         for (const Cut &cut : cuts)
@@ -134,12 +134,12 @@ void RingLeaves::apply(const Cut &cut) noexcept {
     }
     const LeafMemory old = node.leaf[leaf].memory;
     const uint64_t born = node.leaf[leaf].born;
-    Target rest = target(alone_ ? old : cut.fresh, alone_ ? node.leaf[leaf].head : size_t{0});
+    Target rest = cut.fresh ? target(cut.fresh) : target(old, node.leaf[leaf].head);
     for (size_t i = cut.prefix; i < count; ++i)
         if (!cut.marks[i])
             add(rest, key_at(node, leaf, i), record_at(node, leaf, i));
     counters_.moved += rest.count;
-    if (!alone_)
+    if (cut.fresh)
         retire(old, born);
     install(node, leaf, rest);
 }
@@ -150,7 +150,7 @@ void RingLeaves::pop(Node &node, size_t leaf, size_t entries) noexcept {
     node.leaf[leaf].known =
         static_cast<uint8_t>(node.leaf[leaf].known - std::min<size_t>(node.leaf[leaf].known, entries));
     node.total -= static_cast<uint32_t>(entries);
-    if (!alone_) {
+    if (!unread(node.leaf[leaf].born)) {
         node.leaf[leaf].ghosts = static_cast<uint16_t>(node.leaf[leaf].ghosts + entries);
         node.ghost_version = change_;
     }
@@ -229,7 +229,7 @@ void RingLeaves::note_times(size_t position) {
 void RingLeaves::note_times(Node &node, size_t leaf, int64_t until) const noexcept {
     LeafEntry &at = node.leaf[leaf];
     const uint8_t unit = HeadTimes::unit_for(edition_->moment);
-    if (at.known == 0 || (alone_ && at.unit != unit)) {
+    if (at.known == 0 || (unread(at.born) && at.unit != unit)) {
         at.known = 0;
         at.unit = unit;
     }

@@ -10,7 +10,7 @@
 namespace locus::pmq {
 namespace {
 
-constexpr size_t group_size = 32;
+constexpr size_t most_group = 32;
 // Readers may have to wait for a change of so many records; larger batches are written into copies.
 constexpr size_t most_short = 8192;
 
@@ -42,8 +42,9 @@ void RingLeaves::insert(const Batch &batch, Eviction &eviction, Departures &depa
 void RingLeaves::append(const Batch &batch) {
     size_t done = 0;
     try {
-        for (size_t begin = 0; begin < batch.count; begin += group_size)
-            append_group(batch, begin, std::min(begin + group_size, batch.count), done);
+        const size_t groups = (batch.count + most_group - 1) / most_group;
+        for (size_t group = 0; group < groups; ++group)
+            append_group(batch, batch.count * group / groups, batch.count * (group + 1) / groups, done);
     } catch (...) {
         take_back(batch, done);
         throw;
@@ -51,7 +52,7 @@ void RingLeaves::append(const Batch &batch) {
 }
 
 void RingLeaves::append_group(const Batch &batch, size_t begin, size_t end, size_t &done) {
-    Spot spots[group_size];
+    Spot spots[most_group];
     for (size_t i = begin; i < end; ++i) {
         spots[i - begin].node = directory().find(batch.keys[i]);
         directory().prefetch(spots[i - begin].node);
@@ -195,8 +196,9 @@ uint64_t RingLeaves::pivot(const Node &node, size_t leaf) const noexcept {
 void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
     expect_garbage(1);
     const LeafMemory right = slabs_.take();
+    const bool in_place = unread(directory()[position]->leaf[leaf].born);
     LeafMemory left = directory()[position]->leaf[leaf].memory;
-    if (!alone_) {
+    if (!in_place) {
         try {
             left = slabs_.take();
         } catch (...) {
@@ -207,11 +209,20 @@ void RingLeaves::partition(size_t position, size_t leaf, uint64_t pivot) {
     Node &node = *directory()[position];
     const LeafMemory old = node.leaf[leaf].memory;
     const uint64_t born = node.leaf[leaf].born;
-    Target low = target(left, alone_ ? node.leaf[leaf].head : size_t{0}), high = target(right);
+    // Which entry goes where is as good as random: no branch is to depend on it.
+    uint16_t below[LeafShape::most_slots], above[LeafShape::most_slots];
+    size_t lows = 0, highs = 0;
     for (size_t i = 0, count = node.leaf[leaf].count; i < count; ++i) {
-        const uint64_t key = key_at(node, leaf, i);
-        add(key < pivot ? low : high, key, record_at(node, leaf, i));
+        below[lows] = above[highs] = static_cast<uint16_t>(i);
+        const bool is_low = key_at(node, leaf, i) < pivot;
+        lows += is_low;
+        highs += !is_low;
     }
+    Target low = target(left, in_place ? node.leaf[leaf].head : size_t{0}), high = target(right);
+    for (const size_t i : std::span(above, highs))
+        add(high, key_at(node, leaf, i), record_at(node, leaf, i));
+    for (const size_t i : std::span(below, lows))
+        add(low, key_at(node, leaf, i), record_at(node, leaf, i));
     counters_.moved += low.count + high.count;
     ++counters_.rebalances;
     node.insert(leaf + 1, pivot, right);

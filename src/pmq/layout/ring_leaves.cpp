@@ -41,10 +41,9 @@ RingLeaves::Change::~Change() { store_.finish(); }
 
 void RingLeaves::begin(bool is_short) {
     read_ = versions_.begin(is_short);
-    alone_ = read_.until == 0;
     edition_ = versions_.current();
     change_ = edition_->version + 1;
-    if (edition_->version >= read_.until)
+    if (unread(edition_->version))
         return;
     try {
         expect_garbage(1);
@@ -123,14 +122,14 @@ void RingLeaves::discard(const Garbage &thing) noexcept {
 }
 
 void RingLeaves::retire(LeafMemory leaf, uint64_t born) noexcept {
-    if (alone_)
+    if (unread(born))
         slabs_.give_back(leaf);
     else
         discard({born, change_, leaf, nullptr, nullptr});
 }
 
 void RingLeaves::retire(Node *node) noexcept {
-    if (alone_)
+    if (unread(node->version))
         spare(node);
     else
         discard({node->version, change_, nullptr, node, nullptr});
@@ -162,7 +161,7 @@ Node &RingLeaves::own(size_t position) {
     Node *node = directory()[position];
     if (node->version == change_)
         return *node;
-    if (node->version < read_.until) {
+    if (!unread(node->version)) {
         expect_garbage(1);
         Node *copy = take_node();
         *copy = *node;
@@ -171,7 +170,7 @@ Node &RingLeaves::own(size_t position) {
         node = copy;
     }
     node->version = change_;
-    if (node->ghost_version != 0 && (alone_ || node->ghost_version <= read_.oldest)) {
+    if (node->ghost_version != 0 && (unread(0) || node->ghost_version <= read_.oldest)) {
         for (LeafEntry &leaf : node->leaf)
             leaf.ghosts = 0;
         node->ghost_version = 0;

@@ -93,6 +93,7 @@ private:
     void expect_garbage(size_t things);
     void free_garbage(const Garbage &thing) noexcept;
     uint64_t garbage_bytes() const noexcept;
+    bool unread(uint64_t born) const noexcept { return born >= read_.until; } // until the end of the change
     void discard(const Garbage &thing) noexcept;
     void retire(LeafMemory leaf, uint64_t born) noexcept;
     void retire(Node *node) noexcept;
@@ -176,7 +177,6 @@ private:
     Edition *edition_ = nullptr; // the current one, or during a change the one to come
     uint64_t change_ = 0;        // the version being made
     Versions::Read read_{};
-    bool alone_ = false; // nobody reads
     std::vector<Garbage> garbage_;
     size_t garbage_leaves_ = 0, garbage_next_ = 0,
            discarded_ = 0; // the leaves in it; the next to be looked at; new ones

@@ -13,7 +13,7 @@ constexpr size_t huge_page = size_t{2} << 20;
 constexpr size_t page = 4096;
 constexpr size_t most_slab_bytes = LeafShape::slab_span;
 constexpr size_t first_slab_bytes = size_t{256} << 10;
-constexpr size_t ahead = 128; // leaves kept ready
+constexpr size_t ahead = 64; // leaves kept ready
 
 // Memory aligned to the span of slabs: map more, and cut the ends off.
 std::byte *map_pages(size_t bytes) {
@@ -51,10 +51,9 @@ Slabs::~Slabs() {
 }
 
 Slabs::Slab &Slabs::add_slab() {
-    // Slabs grow with the store.
-    size_t bytes = smallest_slab_;
-    while (bytes * 2 <= largest_slab_ && bytes < bytes_ / 4)
-        bytes *= 2;
+    // Slabs grow with the store, to which one adds a sixteenth, but as soon as may be they consist of huge pages.
+    const size_t wanted = std::max(bytes_ / 16, bytes_ < huge_page ? smallest_slab_ : huge_page);
+    const size_t bytes = std::clamp(std::bit_floor(wanted), smallest_slab_, largest_slab_);
     auto slab = std::make_unique<Slab>();
     slab->lead = keep_times() ? lead_bytes(bytes, leaf_bytes_) : 0;
     slab->leaves = (bytes - slab->lead) / leaf_bytes_;
