@@ -8,7 +8,7 @@ check: $(CHECKS) ## the long tests: sanitizers, clang, SIMD=scalar, fuzzing, the
 # The areas whose tests use threads.
 THREADED := unit-core unit-graph unit-weights unit-pmq unit-cold
 # Long tests among them that use one, or several as shorter ones do: the thread sanitizer would see nothing new in them.
-ONE_THREADED := *.EveryInstructionSet*:Natural.LaplaceCountsFaces*:Update.DistanceRatiosFollow*:Search.*:Alerts.*:Insert.*:Log.*:Regions.*:*/Killed.*:*Memory.*
+ONE_THREADED := *.EveryInstructionSet*:Natural.LaplaceCountsFaces*:Update.DistanceRatiosFollow*:Search.*:Alerts.*:Insert.*:Log.*:Regions.*:*/Killed*:StorageFaults.*:*Memory.*
 
 # clang's address sanitizer: g++'s does not see what masked vector stores write.
 check-address: | $(call needs,test check)

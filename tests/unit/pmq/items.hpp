@@ -3,8 +3,11 @@
 
 #include <locus/pmq.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -124,6 +127,16 @@ inline bool in_box(const locus_box &box, const Item &item) {
     if (inside(item.longitude))
         return true;
     return (item.longitude == 180 && inside(-180)) || (item.longitude == -180 && inside(180));
+}
+
+// The law of haversines, in long double.
+inline long double haversine(double latitude, double longitude, const Item &item) {
+    const auto radians = [](long double degrees) { return degrees * std::numbers::pi_v<long double> / 180; };
+    const auto half = [](long double angle) { return std::sin(angle / 2) * std::sin(angle / 2); };
+    const long double a = radians(latitude), b = radians(item.latitude);
+    const long double h =
+        half(b - a) + std::cos(a) * std::cos(b) * half(radians((long double)item.longitude - longitude));
+    return 2 * LOCUS_EARTH_RADIUS * std::asin(std::sqrt(std::min(h, 1.0L)));
 }
 
 } // namespace locus::test

@@ -39,9 +39,7 @@ locus_pmq_query draw_query(Places &draw) {
     if (draw.chance(0.3))
         query.time_from = static_cast<int64_t>(draw.below(9000));
     if (draw.chance(0.2))
-        query.filter = [](const void *record, void *) {
-            return static_cast<int32_t>(unpack(record, LOCUS_RECORD_POINT32).id % 3 == 0);
-        };
+        query.filter = every_third;
     return query;
 }
 

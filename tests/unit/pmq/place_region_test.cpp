@@ -30,16 +30,6 @@ void expect_agreement(const Region &region, const Item &item, bool inside) {
             << "level " << level << ": " << item.latitude << ", " << item.longitude;
 }
 
-// The law of haversines, in long double.
-long double haversine(double latitude, double longitude, const Item &item) {
-    const auto radians = [](long double degrees) { return degrees * std::numbers::pi_v<long double> / 180; };
-    const auto half = [](long double angle) { return std::sin(angle / 2) * std::sin(angle / 2); };
-    const long double a = radians(latitude), b = radians(item.latitude);
-    const long double h =
-        half(b - a) + std::cos(a) * std::cos(b) * half(radians((long double)item.longitude - longitude));
-    return 2 * LOCUS_EARTH_RADIUS * std::asin(std::sqrt(std::min(h, 1.0L)));
-}
-
 locus_circle draw_circle(Places &draw) {
     const Item centre = draw.place();
     return {centre.latitude, centre.longitude, std::pow(10.0, draw.uniform(0, 7.3013))};
@@ -262,11 +252,11 @@ TEST(Regions, AreTheSameInEveryLayout) {
     }
     FilledStores stores(items);
     for (int i = 0; i < 60; ++i) {
-        locus_pmq_query query = default_query();
-        if (draw.chance(0.4)) {
-            query.time_from = 1000 + static_cast<int64_t>(draw.below(4000));
-            query.time_to = query.time_from + static_cast<int64_t>(draw.below(6000));
-        }
+        locus_pmq_query query = draw_times_and_filter(draw);
+        stores.expect_selected(query, [](const Item &) { return true; });
+        query.region = LOCUS_REGION_BOX;
+        query.box = draw.box();
+        stores.expect_selected(query, [&](const Item &item) { return in_box(query.box, item); });
         query.region = LOCUS_REGION_CIRCLE;
         query.circle = draw_circle(draw);
         query.circle.latitude += 0.001 * (query.circle.latitude < 0 ? 1 : -1); // no record on the border

@@ -13,32 +13,26 @@ class Rankings : public testing::Test {
 protected:
     Rankings() : draw(21), stores(draw_items(draw, 20000)) {}
 
-    // The ids of the k best items by a score; those without one (negative) do not count.
+    using Ranked = std::vector<std::pair<double, uint64_t>>;
+
+    // The k best items by a score, with it; those without one (negative) do not count.
     template <typename Score>
-    std::vector<uint64_t> wanted(const locus_pmq_query &query, size_t k, Score &&score) const {
-        std::vector<std::pair<double, uint64_t>> all;
+    Ranked wanted(const locus_pmq_query &query, size_t k, Score &&score) const {
+        Ranked all;
         for (const Item &item : stores.items)
-            if (const double s = score(item); s >= 0 && query.time_from <= item.time && item.time <= query.time_to &&
-                                              (!query.filter || item.id % 3 == 0))
+            if (const double s = score(item); s >= 0 && selects(query, item))
                 all.emplace_back(s, item.id);
         std::stable_sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-        std::vector<uint64_t> ids;
-        for (size_t i = 0; i < std::min(k, all.size()); ++i)
-            ids.push_back(all[i].second);
-        return ids;
+        all.resize(std::min(k, all.size()));
+        return all;
     }
-
-    locus_pmq_query query() {
-        locus_pmq_query q = default_query();
-        if (draw.chance(0.3)) {
-            q.time_from = static_cast<int64_t>(draw.below(6000));
-            q.time_to = q.time_from + static_cast<int64_t>(draw.below(6000));
-        }
-        if (draw.chance(0.3))
-            q.filter = [](const void *record, void *) {
-                return static_cast<int32_t>(unpack(record, LOCUS_RECORD_POINT32).id % 3 == 0);
-            };
-        return q;
+    static Ranked ranked(std::vector<locus_point32> records, const std::vector<double> &scores, size_t count) {
+        records.resize(count);
+        const std::vector<uint64_t> ids = FilledStores::ids_of(records);
+        Ranked all;
+        for (size_t i = 0; i < count; ++i)
+            all.emplace_back(scores[i], ids[i]);
+        return all;
     }
 
     Places draw;
@@ -56,10 +50,10 @@ TEST_F(Rankings, TopKIsTheHeadOfASort) {
         score.radius = std::pow(10.0, draw.uniform(2, 7.3));
         score.alpha = i % 5 == 0 ? 0 : i % 5 == 1 ? 1 : draw.uniform(0, 1);
         score.period = 1 + static_cast<int64_t>(draw.below(12000));
-        const locus_pmq_query q = query();
+        const locus_pmq_query q = draw_times_and_filter(draw);
         const size_t k = 1 + draw.below(draw.chance(0.1) ? 30000 : 150);
         const Site centre(at.latitude, at.longitude);
-        const auto ids = wanted(q, k, [&](const Item &item) {
+        const Ranked best = wanted(q, k, [&](const Item &item) {
             const double distance = centre.distance_to({item.latitude, item.longitude});
             const auto age = static_cast<double>(filled_now - item.time);
             if (distance > score.radius || age > static_cast<double>(score.period))
@@ -67,15 +61,13 @@ TEST_F(Rankings, TopKIsTheHeadOfASort) {
             return score.alpha * (distance / score.radius) +
                    (1 - score.alpha) * (age / static_cast<double>(score.period));
         });
-        found += ids.size();
+        found += best.size();
         for (locus_pmq *pmq : stores.stores) {
             std::vector<locus_point32> records(k);
             std::vector<double> scores(k);
             size_t count = 0;
             ASSERT_EQ(locus_pmq_topk(pmq, &score, &q, k, records.data(), scores.data(), &count), LOCUS_OK);
-            records.resize(count);
-            ASSERT_EQ(FilledStores::ids_of(records), ids);
-            EXPECT_TRUE(std::is_sorted(scores.begin(), scores.begin() + static_cast<ptrdiff_t>(count)));
+            ASSERT_EQ(ranked(records, scores, count), best);
         }
     }
     EXPECT_GT(found, 5000u);
@@ -84,19 +76,20 @@ TEST_F(Rankings, TopKIsTheHeadOfASort) {
 TEST_F(Rankings, NearestIsTheHeadOfASort) {
     for (int i = 0; i < 100; ++i) {
         const Item at = draw.place();
-        const locus_pmq_query q = query();
+        const locus_pmq_query q = draw_times_and_filter(draw);
         const size_t k = 1 + draw.below(draw.chance(0.1) ? 30000 : 150);
         const Site centre(at.latitude, at.longitude);
-        const auto ids = wanted(q, k, [&](const Item &item) {
+        const Ranked best = wanted(q, k, [&](const Item &item) {
             return centre.distance_to({item.latitude, item.longitude});
         });
         for (locus_pmq *pmq : stores.stores) {
             std::vector<locus_point32> records(k);
+            std::vector<double> distances(k);
             size_t count = 0;
-            ASSERT_EQ(locus_pmq_nearest(pmq, at.latitude, at.longitude, &q, k, records.data(), nullptr, &count),
-                      LOCUS_OK);
-            records.resize(count);
-            ASSERT_EQ(FilledStores::ids_of(records), ids);
+            ASSERT_EQ(
+                locus_pmq_nearest(pmq, at.latitude, at.longitude, &q, k, records.data(), distances.data(), &count),
+                LOCUS_OK);
+            ASSERT_EQ(ranked(records, distances, count), best);
         }
     }
 }

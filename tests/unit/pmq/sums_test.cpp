@@ -18,29 +18,14 @@ class Sums : public testing::Test {
 protected:
     Sums() : draw(41), stores(draw_items(draw, 12000)) {}
 
-    locus_pmq_query query() {
-        locus_pmq_query q = default_query();
-        if (draw.chance(0.5)) {
-            q.time_from = static_cast<int64_t>(draw.below(6000));
-            q.time_to = q.time_from + static_cast<int64_t>(draw.below(6000));
-        }
-        if (draw.chance(0.3))
-            q.filter = [](const void *record, void *) {
-                return static_cast<int32_t>(unpack(record, LOCUS_RECORD_POINT32).id % 3 == 0);
-            };
-        return q;
-    }
-    bool selects(const locus_pmq_query &q, const Item &item) const {
-        return q.time_from <= item.time && item.time <= q.time_to && (!q.filter || item.id % 3 == 0);
-    }
-
     Places draw;
     FilledStores stores;
 };
 
-TEST_F(Sums, WeightedTilesAddInTheStoresOrder) {
+// Of any size and zoom, finer than the keys too, plain and weighted: these add up in the store's order.
+TEST_F(Sums, TilesHoldWhatLiesInTheirBins) {
     for (int i = 0; i < 150; ++i) {
-        const locus_pmq_query q = query();
+        const locus_pmq_query q = draw_times_and_filter(draw);
         const auto zoom = static_cast<uint32_t>(draw.below(26)), log2_bins = static_cast<uint32_t>(draw.below(9));
         const Item at = draw.place();
         const MapPoint corner = map_point(at.latitude, at.longitude);
@@ -48,14 +33,18 @@ TEST_F(Sums, WeightedTilesAddInTheStoresOrder) {
                    y = static_cast<uint32_t>(map_cell(corner.y, zoom));
         const size_t side = size_t{1} << log2_bins;
         std::vector<double> wanted(side * side);
+        std::vector<uint32_t> wanted_counts(side * side);
         double sum = 0;
+        uint64_t counted = 0;
         for (const Item &item : stores.items) {
             const MapPoint point = map_point(item.latitude, item.longitude);
             const uint64_t column = map_cell(point.x, zoom + log2_bins), row = map_cell(point.y, zoom + log2_bins);
             if (!selects(q, item) || column >> log2_bins != x || row >> log2_bins != y)
                 continue;
             wanted[row % side * side + column % side] += weight_of(item.id);
+            ++wanted_counts[row % side * side + column % side];
             sum += weight_of(item.id);
+            ++counted;
         }
         for (const locus_pmq *pmq : stores.stores) {
             std::vector<double> bins(side * side, 5);
@@ -65,6 +54,11 @@ TEST_F(Sums, WeightedTilesAddInTheStoresOrder) {
                       LOCUS_OK);
             ASSERT_EQ(bins, wanted) << zoom << "/" << x << "/" << y << " with 2^" << log2_bins << " bins";
             EXPECT_EQ(total, sum);
+            std::vector<uint32_t> counts(side * side, 5);
+            uint64_t count = 5;
+            ASSERT_EQ(locus_pmq_tile(pmq, zoom, x, y, log2_bins, &q, counts.data(), counts.size(), &count), LOCUS_OK);
+            ASSERT_EQ(counts, wanted_counts) << zoom << "/" << x << "/" << y << " with 2^" << log2_bins << " bins";
+            EXPECT_EQ(count, counted);
         }
     }
 }
@@ -74,6 +68,8 @@ TEST_F(Sums, TilesOfAZoomSumToTheCount) {
     const auto one = [](const void *, void *) { return 1.0; };
     for (const locus_pmq *pmq : stores.stores) {
         for (uint32_t zoom = 0; zoom <= 6; ++zoom) {
+            const locus_pmq_query q = zoom % 2 ? draw_times_and_filter(draw) : default_query();
+            const auto all = stores.selected(q, [](const Item &) { return true; }).size();
             uint64_t counted = 0;
             double weighed = 0;
             for (uint32_t x = 0; x < 1u << zoom; ++x) {
@@ -82,8 +78,8 @@ TEST_F(Sums, TilesOfAZoomSumToTheCount) {
                     std::vector<double> sums(16);
                     uint64_t count = 0;
                     double sum = 0;
-                    ASSERT_EQ(locus_pmq_tile(pmq, zoom, x, y, 2, nullptr, bins.data(), 16, &count), LOCUS_OK);
-                    ASSERT_EQ(locus_pmq_weighted_tile(pmq, zoom, x, y, 2, nullptr, one, nullptr, sums.data(), 16, &sum),
+                    ASSERT_EQ(locus_pmq_tile(pmq, zoom, x, y, 2, &q, bins.data(), 16, &count), LOCUS_OK);
+                    ASSERT_EQ(locus_pmq_weighted_tile(pmq, zoom, x, y, 2, &q, one, nullptr, sums.data(), 16, &sum),
                               LOCUS_OK);
                     EXPECT_TRUE(std::equal(bins.begin(), bins.end(), sums.begin()));
                     EXPECT_EQ(count, std::accumulate(bins.begin(), bins.end(), uint64_t{0}));
@@ -91,8 +87,8 @@ TEST_F(Sums, TilesOfAZoomSumToTheCount) {
                     weighed += sum;
                 }
             }
-            EXPECT_EQ(counted, stores.items.size());
-            EXPECT_EQ(weighed, static_cast<double>(stores.items.size()));
+            EXPECT_EQ(counted, all);
+            EXPECT_EQ(weighed, static_cast<double>(all));
         }
     }
 }
@@ -117,7 +113,7 @@ TEST_F(Sums, GroupsAreTheLargestFirst) {
                               {LOCUS_FIELD_LANGUAGE, [](uint64_t id) { return id >> 32 & 0xFFFF; }},
                               {LOCUS_FIELD_CALLER, [](uint64_t id) { return id * id % 97 + (uint64_t{1} << 40); }}};
     for (int i = 0; i < 40; ++i) {
-        locus_pmq_query q = query();
+        locus_pmq_query q = draw_times_and_filter(draw);
         const bool boxed = draw.chance(0.5);
         if (boxed) {
             q.region = LOCUS_REGION_BOX;
