@@ -18,14 +18,15 @@ void insert_case(Row &row, std::size_t count, std::size_t batch, bool with_rtree
                  provide_memory(6 * records.size() * sizeof(Record)); // growing arrays hold two
                  const std::size_t before = allocated_bytes();
                  const auto store = competitor.make(LOCUS_NO_HORIZON);
-                 const std::vector<double> pauses = feed<Record>(*store, records, batch);
+                 const bool checked = std::exchange(first, false);
+                 const double mean = time_batches<Record>(*store, records, batch, checked ? &notes : nullptr);
                  const std::size_t own = store->bytes();
                  const std::size_t bytes = own > 0 ? own : allocated_bytes() - before;
                  notes.add("bytes_per_record", static_cast<double>(bytes) / static_cast<double>(records.size()));
-                 if (std::exchange(first, false)) {
+                 if (checked) {
                      check_store<Record>(row, competitor.peer, *store, records);
                  }
-                 return note_pauses(notes, pauses);
+                 return mean;
              }});
     }
     race(row, contestants);

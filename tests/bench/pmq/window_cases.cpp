@@ -23,11 +23,13 @@ void window_case(Row &row, const std::vector<locus_point32> &records, std::size_
                                    provide_memory(6 * live.size() * sizeof(locus_point32)); // growing arrays hold two
                                    const auto store = competitor.make(horizon);
                                    feed(*store, all.first(timed_from), batch);
-                                   const std::vector<double> pauses = feed(*store, all.subspan(timed_from), batch);
-                                   if (std::exchange(first, false)) {
+                                   const bool checked = std::exchange(first, false);
+                                   const double mean =
+                                       time_batches(*store, all.subspan(timed_from), batch, checked ? &notes : nullptr);
+                                   if (checked) {
                                        check_store<locus_point32>(row, competitor.peer, *store, live);
                                    }
-                                   return note_pauses(notes, pauses);
+                                   return mean;
                                }});
     }
     race(row, contestants);
