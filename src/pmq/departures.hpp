@@ -23,6 +23,9 @@ public:
         void reserve(size_t records);
         void add(Bytes record);
         size_t count() const noexcept { return count_; }
+        // Nobody wants the records themselves: to count them is enough.
+        bool counts_only() const noexcept { return !to_.sink_ && !to_.noting_; }
+        void count(size_t records) noexcept { count_ += records; }
         void commit() noexcept;
 
     private:

@@ -98,9 +98,13 @@ void RingLeaves::remove(std::vector<Cut> &cuts, Departures &departures) {
     leaving.reserve(total);
     for (const Cut &cut : cuts) {
         const Node &node = own(cut.node);
-        for (size_t i = 0, count = node.leaf[cut.leaf].count; i < count; ++i)
-            if (i < cut.prefix || cut.marks[i])
-                leaving.add(record_at(node, cut.leaf, i));
+        const size_t end = cut.marked > 0 ? node.leaf[cut.leaf].count : cut.prefix;
+        if (leaving.counts_only())
+            leaving.count(cut.prefix + cut.marked);
+        else
+            for (size_t i = 0; i < end; ++i)
+                if (cut.takes(i))
+                    leaving.add(record_at(node, cut.leaf, i));
     }
     expect_garbage(cuts.size());
     try {
@@ -125,7 +129,7 @@ void RingLeaves::apply(const Cut &cut) noexcept {
     const size_t leaf = cut.leaf, count = node.leaf[leaf].count;
     if (ages_.wanted()) {
         for (size_t i = 0; i < count; ++i)
-            if ((i < cut.prefix || cut.marks[i]) && time_at(node, leaf, i) >= edition().moment.cutoff)
+            if (cut.takes(i) && time_at(node, leaf, i) >= edition().moment.cutoff)
                 ages_.take_back(time_at(node, leaf, i));
     }
     if (cut.marked == 0) {
