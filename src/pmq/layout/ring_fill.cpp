@@ -64,7 +64,7 @@ void RingLeaves::fill_leaf(const Batch &batch, Filled &leaf) const noexcept {
     leaf.newest = newest;
     const auto age = [&](int64_t time) { return static_cast<uint64_t>(time) - static_cast<uint64_t>(oldest); };
     const bool sorts = in_time && age(newest) < LeafOrder::values;
-    LeafOrder order;
+    LeafOrder order(0, sorts ? age(newest) : 0);
     for (size_t i = begin; i < end && sorts; ++i)
         order.add(age(time_of(i)), i - begin);
     if (sorts)

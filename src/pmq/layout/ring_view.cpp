@@ -81,25 +81,32 @@ bool RingView::within(size_t position, size_t leaf, const KeyRange &keys) const 
 }
 
 // Fetch what first_not_before will look at.
-void RingView::prefetch(uint64_t number, int64_t from) const noexcept {
-    const LeafEntry &entry = edition_.directory[position(number)]->leaf[leaf(number)];
-    if (entry.oldest < from)
-        HeadTimes(shape_, entry).prefetch();
+void RingView::prefetch_times(uint64_t at, int64_t from) const noexcept {
+    if (entry(at).oldest < from)
+        HeadTimes(shape_, entry(at)).prefetch();
+}
+
+// Call visit(leaf's number) for the leaves of a place until it returns false; false if it did.
+template <typename Visit>
+bool RingView::visit_ahead(const Place &place, int64_t from, Visit &&visit) const {
+    uint64_t fetched = place.first;
+    const auto fetch = [&](uint64_t leaves) {
+        for (; leaves > 0 && fetched <= place.last; --leaves, fetched = after(fetched))
+            prefetch_times(fetched, from);
+    };
+    fetch(ahead);
+    for (uint64_t at = place.first; at <= place.last; at = after(at)) {
+        fetch(1);
+        if (!visit(at))
+            return false;
+    }
+    return true;
 }
 
 uint64_t RingView::count(const Place &place, const KeyRange &keys, int64_t from) const {
     uint64_t total = 0;
     if (place.empty())
         return 0;
-    const auto count_leaves = [&](uint64_t first, uint64_t last) {
-        for (uint64_t at = first; at < std::min(first + ahead, last + 1); ++at)
-            prefetch(at, from);
-        for (uint64_t at = first; at <= last; ++at) {
-            if (at + ahead <= last)
-                prefetch(at + ahead, from);
-            total += count_leaf(position(at), leaf(at), keys, from);
-        }
-    };
     for (size_t at = position(place.first); at <= position(place.last); ++at) {
         const Node &node = *edition_.directory[at];
         const size_t begin = at == position(place.first) ? leaf(place.first) : 0;
@@ -108,7 +115,10 @@ uint64_t RingView::count(const Place &place, const KeyRange &keys, int64_t from)
             node.oldest_of_all() >= from)
             total += node.total;
         else
-            count_leaves(number(at, begin), number(at, end));
+            visit_ahead({number(at, begin), number(at, end)}, from, [&](uint64_t i) {
+                total += count_leaf(position(i), leaf(i), keys, from);
+                return true;
+            });
     }
     return total;
 }
@@ -151,11 +161,11 @@ Block RingView::slots_of(const Node &node, size_t leaf) const noexcept {
 
 bool RingView::scan(const Place &place, const KeyRange &keys, int64_t from, Order order,
                     FunctionRef<bool(const Block &)> visit) const {
-    return for_each_leaf(place, [&](size_t position, size_t leaf) {
-        if (edition_.directory[position]->leaf[leaf].count == 0)
+    return visit_ahead(place, from, [&](uint64_t at) {
+        if (entry(at).count == 0)
             return true;
-        return order == Order::any ? scan_ring(position, leaf, keys, from, visit)
-                                   : scan_sorted(position, leaf, keys, from, visit);
+        return order == Order::any ? scan_ring(position(at), leaf(at), keys, from, visit)
+                                   : scan_sorted(position(at), leaf(at), keys, from, visit);
     });
 }
 
@@ -194,16 +204,15 @@ bool RingView::scan_sorted(size_t position, size_t leaf, const KeyRange &keys, i
     const Node &node = *edition_.directory[position];
     const size_t head = node.leaf[leaf].head, count = node.leaf[leaf].count;
     Block block = slots_of(node, leaf);
-    LeafOrder order;
+    LeafOrder order(node.separators[leaf], highest(position, leaf));
     const bool all = within(position, leaf, keys);
     const uint64_t *leaf_keys = shape_.keys(node.leaf[leaf].memory);
     for (size_t i = skip_older(node, leaf, from, block); i < count; ++i) {
-        const size_t slot = shape_.slot(head, i);
-        if (!all && !keys.contains(leaf_keys[slot]))
-            continue;
-        order.add(leaf_keys[slot], i);
-        __builtin_prefetch(block.record(slot));
+        const uint64_t key = leaf_keys[shape_.slot(head, i)];
+        order.add(key, i, all || keys.contains(key));
     }
+    for (size_t i = 0; i < order.count(); ++i)
+        __builtin_prefetch(block.record(shape_.slot(head, order.number(i))));
     if (order.count() == 0)
         return true;
     order.sort();

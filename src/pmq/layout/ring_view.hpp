@@ -49,10 +49,16 @@ private:
     static uint64_t number(size_t position, size_t leaf) noexcept { return position * Node::fanout + leaf; }
     static size_t position(uint64_t number) noexcept { return number / Node::fanout; }
     static size_t leaf(uint64_t number) noexcept { return number % Node::fanout; }
+    uint64_t after(uint64_t at) const noexcept { // the next one's
+        return leaf(at) + 1 < edition_.directory[position(at)]->leaves ? at + 1 : number(position(at) + 1, 0);
+    }
+    const LeafEntry &entry(uint64_t at) const noexcept { return edition_.directory[position(at)]->leaf[leaf(at)]; }
     uint64_t last_below(uint64_t key, const Place &outer) const noexcept;
     bool within(size_t position, size_t leaf, const KeyRange &keys) const noexcept;
     uint64_t count_leaf(size_t position, size_t leaf, const KeyRange &keys, int64_t from) const noexcept;
-    void prefetch(uint64_t number, int64_t from) const noexcept;
+    void prefetch_times(uint64_t at, int64_t from) const noexcept;
+    template <typename Visit>
+    bool visit_ahead(const Place &place, int64_t from, Visit &&visit) const;
     uint64_t highest(size_t position, size_t leaf) const noexcept;
     size_t skip_older(const Node &node, size_t leaf, int64_t from, Block &block) const noexcept;
     bool scan_ring(size_t position, size_t leaf, const KeyRange &keys, int64_t from,

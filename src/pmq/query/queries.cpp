@@ -17,6 +17,20 @@ uint64_t count(const View &view, const Selection &selection) {
     return total;
 }
 
+namespace {
+
+// The first `most` records of a block.
+void copy_all(const Block &block, size_t size, std::byte *to, size_t most) noexcept {
+    const size_t count = std::min(block.count, most);
+    if (!block.order && block.record_stride == size) // as they stand
+        std::copy_n(block.records, count * size, to);
+    else
+        for (size_t i = 0; i < count; ++i)
+            copy_record(to + i * size, block.record(block.entry(i)), size);
+}
+
+} // namespace
+
 size_t read(const View &view, const Selection &selection, Order order, std::byte *records, size_t capacity) {
     const size_t size = view.format().size;
     const Selection live = selection.at(view.moment());
@@ -24,9 +38,8 @@ size_t read(const View &view, const Selection &selection, Order order, std::byte
     for_each_range(view, live.region, [&](const RangeAt &range) {
         const Acceptance accepted(view, live, range);
         return view.scan(range.place, range.keys, live.times.from, order, [&](const Block &block) {
-            if (accepted.all_of(block) && !block.order && block.record_stride == size) { // as it stands
-                if (found < capacity)
-                    std::copy_n(block.records, std::min(block.count, capacity - found) * size, records + found * size);
+            if (accepted.all_of(block)) {
+                copy_all(block, size, records + found * size, found < capacity ? capacity - found : 0);
                 found += block.count;
                 return true;
             }

@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace locus::pmq {
 namespace {
 
 constexpr uint64_t few_bins = 16; // so few that counting the keys below their borders is quicker
+constexpr uint64_t most_in_bin = std::numeric_limits<uint32_t>::max();
+constexpr size_t cache_line = 64;
 
 class TileCount {
 public:
@@ -22,6 +25,7 @@ public:
 
     uint64_t run() {
         descend(tile_, view_.everywhere());
+        add_keys(waiting_);
         return total_;
     }
 
@@ -45,34 +49,40 @@ private:
         return uint64_t{1} << 2 * (places_.level() - quadrant.level);
     }
 
-    // A block whose keys lie in one bin is counted as a whole.
     void scan(const RangeAt &range) {
         const Acceptance accepted(view_, live_, range);
         view_.scan(range.place, range.keys, live_.times.from, Order::any, [&](const Block &block) {
-            const bool all = accepted.all_of(block);
-            if (all && places_.by_key() && places_.of(block.lowest) == places_.of(block.highest) &&
-                block.lowest >= range.keys.lo && block.highest < range.keys.hi) {
-                add(places_.of(block.lowest), block.count);
-                return true;
-            }
-            if (all && places_.by_key()) {
+            if (places_.by_key() && accepted.all_of(block)) {
                 add_all(block, range.keys);
                 return true;
             }
             for (size_t i = 0; i < block.count; ++i)
-                if (const size_t entry = block.entry(i); all || accepted(block, entry))
+                if (const size_t entry = block.entry(i); accepted(block, entry))
                     add(places_.of(block.key(entry), block.record(entry)), 1);
             return true;
         });
     }
 
-    // Few bins, side by side on the Z-curve: how many keys lie below each border. Many: one by one.
-    void add_all(const Block &block, const KeyRange &keys) noexcept {
-        const uint64_t first = places_.code(std::max(block.lowest, keys.lo));
-        const uint64_t last = places_.code(std::min(block.highest, keys.hi - 1));
-        if (block.count < worthwhile || block.key_stride != sizeof(uint64_t))
+    // A block whose keys lie in one bin is counted as a whole. Others are looked at when the next one comes, so that
+    // memory is not waited for.
+    void add_all(Block block, const KeyRange &keys) noexcept {
+        block.lowest = std::max(block.lowest, keys.lo);
+        block.highest = std::min(block.highest, keys.hi - 1);
+        if (places_.code(block.lowest) == places_.code(block.highest)) {
+            add(places_.of(block.lowest), block.count);
+        } else if (block.count < worthwhile || block.key_stride != sizeof(uint64_t)) {
             add_singly(block);
-        else if (last - first < few_bins)
+        } else {
+            for (size_t i = 0; i < block.count; i += cache_line / sizeof(uint64_t))
+                __builtin_prefetch(block.keys + i * sizeof(uint64_t));
+            add_keys(std::exchange(waiting_, block));
+        }
+    }
+
+    // Few bins, side by side on the Z-curve: how many keys lie below each border. Many: one by one.
+    void add_keys(const Block &block) noexcept {
+        const uint64_t first = places_.code(block.lowest), last = places_.code(block.highest);
+        if (last - first < few_bins)
             add_by_borders(block, first, last);
         else
             add_by_bins(block);
@@ -97,10 +107,20 @@ private:
         for (size_t begin = 0; begin < block.count; begin += most_keys) {
             const size_t count = std::min(block.count - begin, most_keys);
             many_keys().bins(places_.shift(), places_.log2_bins(), keys + begin, count, where);
-            for (size_t i = 0; i < count; ++i)
-                add_one(bins_[where[i]]);
+            add_at({where, count});
         }
-        total_ += block.count;
+    }
+
+    // As long as all bins together have no more than one can hold, none is full.
+    void add_at(std::span<const uint64_t> where) noexcept {
+        uint32_t *bins = bins_.data();
+        total_ += where.size();
+        if (total_ <= most_in_bin)
+            for (const uint64_t bin : where)
+                ++bins[bin];
+        else
+            for (const uint64_t bin : where)
+                add_one(bins[bin]);
     }
 
     void add_singly(const Block &block) noexcept {
@@ -111,10 +131,9 @@ private:
         total_ += block.count;
     }
 
-    static void add_one(uint32_t &bin) noexcept { bin += bin != std::numeric_limits<uint32_t>::max(); }
+    static void add_one(uint32_t &bin) noexcept { bin += bin != most_in_bin; }
     void add(size_t bin, uint64_t count) noexcept {
-        constexpr uint64_t most = std::numeric_limits<uint32_t>::max();
-        bins_[bin] = static_cast<uint32_t>(std::min(most, bins_[bin] + count));
+        bins_[bin] = static_cast<uint32_t>(std::min(most_in_bin, bins_[bin] + count));
         total_ += count;
     }
 
@@ -124,6 +143,7 @@ private:
     TileBins places_;
     std::span<uint32_t> bins_;
     uint64_t total_ = 0;
+    Block waiting_; // keys that are being fetched, all in the tile
 };
 
 } // namespace
