@@ -13,9 +13,10 @@ int32_t compact(Queue &queue, const uint8_t *flags, uint64_t count, uint64_t *li
     LOCUS_CUDA(cub::DeviceSelect::Flagged(nullptr, needed, numbers, flags, list, listed, items, queue.stream));
     if (needed > queue.scratch_bytes) {
         LOCUS_CUDA(cudaStreamSynchronize(queue.stream)); // the old scratch memory may be in use
-        cudaFree(queue.scratch);
+        void *const old = queue.scratch;
         queue.scratch = nullptr;
         queue.scratch_bytes = 0;
+        LOCUS_CUDA(cudaFree(old));
         LOCUS_CUDA(cudaMalloc(&queue.scratch, needed));
         queue.scratch_bytes = needed;
     }

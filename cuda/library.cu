@@ -1,5 +1,6 @@
 // The table that liblocus uses: a device, its memory and its kernels.
 #include "cuda/queue.cuh"
+#include "graph/device/transfer.hpp"
 
 #include <new>
 
@@ -17,10 +18,12 @@ public:
         if (cudaGetDevice(&before_) != cudaSuccess)
             before_ = -1;
         error_ = before_ == device ? cudaSuccess : cudaSetDevice(device);
+        changed_ = before_ >= 0 && before_ != device;
     }
     ~OnDevice() {
-        if (before_ >= 0)
+        if (changed_)
             cudaSetDevice(before_);
+        cudaGetLastError(); // what nobody asked for is not told to the next call
     }
     OnDevice(const OnDevice &) = delete;
     OnDevice &operator=(const OnDevice &) = delete;
@@ -28,6 +31,7 @@ public:
 
 private:
     int before_ = -1;
+    bool changed_ = false;
     cudaError_t error_;
 };
 
@@ -49,12 +53,26 @@ int32_t describe(int device, Machine *machine, Message *why) {
 void close(Queue *queue) {
     if (queue == nullptr)
         return;
-    const OnDevice here(queue->device);
-    cudaStreamSynchronize(queue->stream);
-    cudaFree(queue->scratch);
-    if (queue->own_stream)
-        cudaStreamDestroy(queue->stream);
+    if (queue->stream != nullptr) { // null: opening it failed
+        const OnDevice here(queue->device);
+        cudaStreamSynchronize(queue->stream);
+        cudaFree(queue->scratch);
+        if (queue->own_stream)
+            cudaStreamDestroy(queue->stream);
+    }
     delete queue;
+}
+
+// Whether there is code for this GPU: the driver loads a kernel when something is asked of it.
+int32_t probe(Queue &queue, Message *why) {
+    const device::Resume<uint32_t> body{};
+    Launch launch{};
+    launch.kernel = Kernel::resume;
+    launch.word_bits = 32;
+    launch.body = &body;
+    launch.body_bytes = sizeof body;
+    uint64_t blocks = 0;
+    return run_plain(queue, launch, why, &blocks);
 }
 
 // The device that is the calling thread's now.
@@ -70,7 +88,7 @@ int32_t start(Queue &queue, Machine *machine, Message *why) {
     queue.multiprocessors = static_cast<int>(machine->multiprocessors);
     LOCUS_CUDA(cudaStreamCreateWithFlags(&queue.stream, cudaStreamNonBlocking));
     queue.own_stream = true;
-    return LOCUS_OK;
+    return probe(queue, why);
 }
 
 int32_t open(Queue **queue, Machine *machine, Message *why) {
@@ -92,14 +110,13 @@ int32_t use_stream(Queue *queue, void *stream, Message *why) {
     const OnDevice here(queue->device);
     LOCUS_CUDA(here.error());
     LOCUS_CUDA(cudaStreamSynchronize(queue->stream));
+    auto next = static_cast<cudaStream_t>(stream);
+    if (stream == nullptr)
+        LOCUS_CUDA(cudaStreamCreateWithFlags(&next, cudaStreamNonBlocking));
     if (queue->own_stream)
-        LOCUS_CUDA(cudaStreamDestroy(queue->stream));
-    queue->own_stream = false;
-    queue->stream = static_cast<cudaStream_t>(stream);
-    if (stream == nullptr) {
-        LOCUS_CUDA(cudaStreamCreateWithFlags(&queue->stream, cudaStreamNonBlocking));
-        queue->own_stream = true;
-    }
+        cudaStreamDestroy(queue->stream);
+    queue->stream = next;
+    queue->own_stream = stream == nullptr;
     return LOCUS_OK;
 }
 
@@ -120,11 +137,11 @@ int32_t allocate(Queue *queue, uint64_t bytes, void **memory, Message *why) {
     return report(error, "cudaMalloc", why);
 }
 
-// cudaFree waits for the work that uses the memory.
+// After a failure there may be work in the queue that uses the memory.
 void release(Queue *queue, void *memory) {
     const OnDevice here(queue->device);
+    cudaStreamSynchronize(queue->stream);
     cudaFree(memory);
-    cudaGetLastError();
 }
 
 int32_t upload(Queue *queue, void *to, const void *from, uint64_t bytes, Message *why) {

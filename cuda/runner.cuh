@@ -70,9 +70,7 @@ struct Runner {
             *resident = blocks;
             return LOCUS_OK;
         }
-        item_kernel<Body><<<blocks, kItemThreads, 0, queue.stream>>>(*body);
-        LOCUS_CUDA(cudaGetLastError());
-        return LOCUS_OK;
+        return start(item_kernel<Body>, blocks, kItemThreads, *body);
     }
 
     template <typename Body>
@@ -88,9 +86,16 @@ struct Runner {
             *resident = blocks > 0 ? static_cast<uint64_t>(blocks) : 1;
             return LOCUS_OK;
         }
-        block_kernel<Body><<<static_cast<unsigned>(launch.items), Body::threads, 0, queue.stream>>>(*body);
-        LOCUS_CUDA(cudaGetLastError());
-        return LOCUS_OK;
+        return start(block_kernel<Body>, launch.items, Body::threads, *body);
+    }
+
+private:
+    template <typename Body>
+    int32_t start(void (*kernel)(Body), uint64_t blocks, unsigned threads, Body &body) {
+        void *arguments[] = {&body};
+        return report(cudaLaunchKernel(reinterpret_cast<const void *>(kernel), dim3(static_cast<unsigned>(blocks)),
+                                       dim3(threads), arguments, 0, queue.stream),
+                      "cudaLaunchKernel", why);
     }
 };
 

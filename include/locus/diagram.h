@@ -48,9 +48,10 @@ typedef struct locus_diagram_options {
     double max_distance;   /* voxels farther than this stay unreached, >= 0; default +infinity: no cut-off */
     uint32_t grain[3];     /* for LOCUS_ENGINE_COMPACT: a grain's voxels in x, y, z, each 1..1024; default 8, 4, 4 */
     uint32_t reserved0;    /* 0 */
-    void *stream; /* for the CUDA backend: the caller's cudaStream_t that all work is put on; calls still return
-                     when their result is there. It must outlive the diagram, and belong to the CUDA device
-                     that is the calling thread's. Default NULL: a stream of the diagram's own */
+    void *stream; /* for the CUDA backend: the caller's cudaStream_t that all work is put on, Sibson's weights of the
+                     diagram included; calls still return when their result is there. It must outlive the diagram and
+                     its weights, and belong to the CUDA device that is the calling thread's. Default NULL: streams of
+                     the library's own */
 } locus_diagram_options;
 
 /* What the latest solve did. */

@@ -68,7 +68,7 @@ std::vector<RowPile> natural_rows_on_backend(const NaturalJob &job, Progress &pr
     if (graph.backend() != LOCUS_BACKEND_CUDA || job.method != LOCUS_METHOD_SIBSON)
         return natural_rows(job, progress);
     try {
-        device::Device gpu(*device::find().table);
+        device::Device gpu(*device::find().table, job.stream);
         return device::sibson_rows(gpu, job, progress);
     } catch (const Error &error) {
         if (graph.backend_forced() || !device::is_devices_own(error))

@@ -29,6 +29,7 @@ public:
     Diagram(std::shared_ptr<const Graph> graph, const locus_diagram_options &options);
 
     const Graph &graph() const { return *graph_; }
+    void *stream() const { return options_.stream; }
     const std::vector<Seed> &seeds() const { return seeds_; } // by slot
 
     // Changes of the seeds; each either succeeds or changes nothing.

@@ -69,9 +69,16 @@ private:
 
 class Device {
 public:
-    explicit Device(const Table &table) : table_(table) {
+    // `stream`: the caller's; null: one of its own.
+    explicit Device(const Table &table, void *stream = nullptr) : table_(table) {
         Message why{};
-        if (const int32_t status = table.open(&queue_, &machine_, &why); status != LOCUS_OK)
+        int32_t status = table.open(&queue_, &machine_, &why);
+        if (status == LOCUS_OK && stream != nullptr) {
+            status = table.use_stream(queue_, stream, &why);
+            if (status != LOCUS_OK)
+                table.close(queue_);
+        }
+        if (status != LOCUS_OK)
             fail(status, why.text);
     }
     Device(const Device &) = delete;
@@ -79,9 +86,6 @@ public:
     ~Device() { table_.close(queue_); }
 
     const Machine &machine() const { return machine_; }
-    void use_stream(void *stream) {
-        call([&](Message *why) { return table_.use_stream(queue_, stream, why); });
-    }
 
     template <typename T>
     Memory<T> allocate(uint64_t count) {

@@ -21,11 +21,8 @@ protected:
     template <typename Run>
     Report on_device(Run &&run) {
         try {
-            if (!device_) {
-                device_ = std::make_unique<Device>(table_);
-                if (stream_ != nullptr)
-                    device_->use_stream(stream_);
-            }
+            if (!device_)
+                device_ = std::make_unique<Device>(table_, stream_);
             return run(*device_);
         } catch (...) {
             forget();

@@ -13,6 +13,7 @@ struct Answer {
     static constexpr uint32_t no_room = 0xFFFFFFFE;      // its counts did not fit
     uint64_t first;                                      // in the counts
     uint32_t length;                                     // how many labels it steals from, or one of the above
+    uint32_t unused = 0;                                 // no byte that comes back is rubbish
 };
 
 struct Stolen {
@@ -20,13 +21,13 @@ struct Stolen {
     uint32_t voxels;
 };
 
-// Memory of one block, `window` entries each but for the labels'. Between queries `reach` holds kFar, `level` and
-// `stolen` 0.
+// Memory of one block, `window` entries each but for the fronts' and the labels'. Between queries `reach` holds kFar,
+// `level` and `stolen` 0.
 template <typename Word>
 struct SibsonScratch {
     Word *reach;
-    uint32_t *level;    // the latest level at which a cell was put into a list
-    uint32_t *front[2]; // cells whose distance fell
+    uint32_t *level;  // the latest level at which a cell was put into a list
+    uint32_t *fronts; // cells whose distance fell, in two halves by level modulo 2
     uint32_t *touched;
     uint32_t *stolen; // by label
     uint32_t *labels; // those met
@@ -90,8 +91,7 @@ private:
         SibsonScratch<Word> own = scratch;
         own.reach += block * scratch.window;
         own.level += block * scratch.window;
-        own.front[0] += block * scratch.window;
-        own.front[1] += block * scratch.window;
+        own.fronts += 2 * block * scratch.window;
         own.touched += block * scratch.window;
         own.stolen += block * scratch.label_count;
         own.labels += block * scratch.label_count;
@@ -105,6 +105,7 @@ private:
             return;
         uint64_t at[3];
         graph.place(queries[s.query], at);
+        LOCUS_UNROLL
         for (unsigned a = 0; a < 3; ++a) {
             s.origin[a] = at[a] > margin ? at[a] - margin : 0;
             const uint64_t end = at[a] + margin + 1;
@@ -112,7 +113,7 @@ private:
         }
         const uint32_t cell = cell_of(s, at);
         own.reach[cell] = 0;
-        own.front[0][0] = own.touched[0] = cell;
+        own.fronts[0] = own.touched[0] = cell;
         s.touched = s.size[0] = 1;
         s.size[1] = s.size[2] = 0;
     }
@@ -141,7 +142,7 @@ private:
         const uint32_t size = s.size[level % 3];
         for (uint32_t i = thread; i < size; i += threads) {
             uint64_t at[3];
-            const uint32_t cell = own.front[level % 2][i];
+            const uint32_t cell = own.fronts[level % 2 * own.window + i];
             const uint64_t voxel = voxel_of(s, cell, at);
             const Word reach = load_shared(&own.reach[cell]);
             const float operand = graph.operands[voxel];
@@ -151,12 +152,14 @@ private:
                     return;
                 const uint64_t there[3] = {at[0] + static_cast<uint64_t>(dx), at[1] + static_cast<uint64_t>(dy),
                                            at[2] + static_cast<uint64_t>(dz)};
+                bool inside = true;
+                LOCUS_UNROLL
                 for (unsigned a = 0; a < 3; ++a)
-                    if (there[a] - s.origin[a] >= s.extent[a]) {
-                        atomic_or(&s.left, 1u);
-                        return;
-                    }
-                lower(s, own, cell_of(s, there), longer, level);
+                    inside = inside && there[a] - s.origin[a] < s.extent[a];
+                if (inside)
+                    lower(s, own, cell_of(s, there), longer, level);
+                else
+                    atomic_or(&s.left, 1u);
             });
         }
     }
@@ -169,7 +172,7 @@ private:
         if (old == kFar)
             own.touched[atomic_add(&s.touched, 1u)] = cell;
         if (atomic_exchange(&own.level[cell], level + 1) != level + 1)
-            own.front[(level + 1) % 2][atomic_add(&s.size[(level + 1) % 3], 1u)] = cell;
+            own.fronts[(level + 1) % 2 * own.window + atomic_add(&s.size[(level + 1) % 3], 1u)] = cell;
     }
 
     // What was touched is what is stolen: the bound was there from the beginning.

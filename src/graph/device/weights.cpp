@@ -38,7 +38,7 @@ public:
         uint64_t margin = first_margin;
         with_rule_of<Word>(graph_, tables_, [&](const auto &rule, const Launch &launch) {
             while (!left.empty()) {
-                make_scratch(rule, launch, margin);
+                make_scratch(rule, launch, margin, left.size());
                 std::vector<Query> too_small;
                 while (!left.empty()) {
                     answer(rule, launch, margin, left, too_small);
@@ -59,17 +59,13 @@ private:
         const uint64_t voxels = graph_.grid().voxels();
         const Operands operands(graph_);
         std::vector<float> values(voxels);
-        std::vector<Word> words(voxels);
         for (uint64_t v = 0; v < voxels; ++v) {
             values[v] = operands(v);
-            const bool reached = job_.field.reached(v);
-            words[v] = static_cast<Word>(reached ? graph_.layout().pack(job_.field.distance(v), job_.field.label(v))
-                                                 : graph_.layout().unreached());
-            if (reached)
+            if (job_.field.reached(v))
                 labels_ = std::max<uint64_t>(labels_, job_.field.label(v) + uint64_t{1});
         }
         operands_ = device_.copy_of(std::span<const float>(values));
-        words_ = device_.copy_of(std::span<const Word>(words));
+        words_ = device_.copy_of(std::span<const Word>(std::get<std::vector<Word>>(job_.field.words())));
         if (graph_.cuts() == nullptr)
             return;
         std::vector<uint32_t> open(voxels);
@@ -123,9 +119,9 @@ private:
         return sibson;
     }
 
-    // Scratch memory for as many blocks as run at the same time and the budget allows.
+    // Scratch memory for as many blocks as run at the same time, have a query each and the budget allows.
     template <typename Rule>
-    void make_scratch(const Rule &rule, Launch launch, uint64_t margin) {
+    void make_scratch(const Rule &rule, Launch launch, uint64_t margin, uint64_t queries) {
         uint64_t window = 1;
         for (const uint64_t dim : graph_.grid().dims())
             window *= std::min(dim, 2 * margin + 1);
@@ -133,7 +129,7 @@ private:
         if (bytes > job_.bytes || window > UINT32_MAX)
             fail(LOCUS_E_MEMORY, "batch_bytes is ", job_.bytes, ": a query on the GPU needs ", bytes);
         launch.kernel = Kernel::sibson;
-        blocks_ = std::min(device_.resident(launch, body(rule)), job_.bytes / bytes);
+        blocks_ = std::min({device_.resident(launch, body(rule)), job_.bytes / bytes, queries});
         reach_ = {};
         cells_ = {};
         by_label_ = {};
@@ -143,7 +139,7 @@ private:
         const uint64_t all = blocks_ * window;
         scratch_ = {reach_.get(),
                     cells_.get(),
-                    {cells_.get() + all, cells_.get() + 2 * all},
+                    cells_.get() + all,
                     cells_.get() + 3 * all,
                     by_label_.get(),
                     by_label_.get() + blocks_ * labels_,
