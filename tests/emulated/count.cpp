@@ -1,5 +1,6 @@
 // Counts what the brick solver of the CUDA backend does on the inputs of the gpu.* benchmarks, by the emulated device:
-// rounds, visits of bricks, passes within them, and the memory they move. count [side]: up to which cubes, default 64.
+// rounds, visits of bricks, passes within them, the memory they move, and how long an H200 would take to move it.
+// count [side]: up to which cubes, default 64.
 #include "graph/device/field.hpp"
 #include "tests/bench/data/volumes.hpp"
 #include "tests/bench/harness/cases.hpp"
@@ -22,6 +23,9 @@ std::string data_file(const std::string &path) {
 namespace {
 
 using namespace locus;
+
+constexpr double floor_bytes = 12;              // a voxel's operand read, its word written and read once
+constexpr double slow = 3.35e12, fast = 4.8e12; // bytes a second of an H100's and an H200's memory, nominal
 
 locus_graph_options options_for(const bench::Volume &volume, uint32_t words) {
     locus_graph_options options{};
@@ -57,12 +61,14 @@ void count(const std::string &name, const bench::Volume &volume, const graph::Gr
         static_cast<double>(work.visits) * device::kHalo * device::kHalo * 32 * (word_sectors + operand_sectors);
     const double written = static_cast<double>(work.visits - work.vain) * device::kVoxels * sizeof(Word);
     const auto bricks = static_cast<double>(field.bricks_in_grid());
-    std::printf("| %s | %u | %llu | %llu | %.0f | %.2f | %.2f | %.1f | %.0f | %.0f |\n", name.c_str(),
-                graph.layout().bits, static_cast<unsigned long long>(work.rounds),
+    const double moved = read + written, voxels = static_cast<double>(volume.voxels());
+    std::printf("| %s | %u | %llu | %llu | %.0f | %.2f | %.2f | %.1f | %.0f | %.0f | %.1f | %.3f to %.3f | %.3f |\n",
+                name.c_str(), graph.layout().bits, static_cast<unsigned long long>(work.rounds),
                 static_cast<unsigned long long>(work.launched), bricks, static_cast<double>(work.visits) / bricks,
                 static_cast<double>(work.vain) / bricks,
-                static_cast<double>(work.passes) / static_cast<double>(work.visits), (read + written) / 1e6,
-                (read + written) / static_cast<double>(volume.voxels()));
+                static_cast<double>(work.passes) / static_cast<double>(work.visits), moved / 1e6, moved / voxels,
+                moved / voxels / floor_bytes, 1e3 * moved / fast, 1e3 * moved / slow,
+                1e3 * floor_bytes * voxels / fast);
     std::fflush(stdout);
 }
 
@@ -77,7 +83,7 @@ int main(int argc, char **argv) {
     const uint64_t most = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 64;
     std::printf(
         "| input | word | rounds | launched | bricks | visits a brick | in vain | passes a visit | MB moved | bytes "
-        "a voxel |\n|---|---|---|---|---|---|---|---|---|---|\n");
+        "a voxel | times the floor | ms, moved | ms, floor |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (uint64_t side = 32; side <= most; side *= 2)
         for (const std::string topology : {"constant", "gradient", "noise", "maze"})
             count("cube" + std::to_string(side) + "." + topology + ".s10", bench::cube(topology, side, 10),

@@ -1,6 +1,7 @@
 #include "tests/emulated/device.hpp"
 
 #include "graph/device/dispatch.hpp"
+#include "tests/emulated/lanes.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +18,7 @@ namespace locus::device {
 
 struct Queue {
     std::mt19937_64 random;
+    void *stream = nullptr;
 };
 
 namespace emulated {
@@ -146,13 +148,19 @@ struct Runner {
         const Body body = *static_cast<const Body *>(launch.body);
         const Order order(launch.items, queue.random);
         const uint64_t seed = queue.random();
+        std::atomic<bool> together = true;
         on_threads([&](uint64_t rank, uint64_t of) {
             for (uint64_t i = rank; i < launch.items; i += of) {
+                if (settings().lanes > 0) {
+                    if (!run_lanes(body, order[i], settings().lanes, seed + i))
+                        together = false;
+                    continue;
+                }
                 const auto block = std::make_unique<Block<Body>>(order[i], seed + i);
                 body(*block);
             }
         });
-        return LOCUS_OK;
+        return together ? LOCUS_OK : say(why, LOCUS_E_INTERNAL, "threads of a block came to different barriers");
     }
 };
 
@@ -175,16 +183,17 @@ int32_t open(Queue **queue, Machine *machine, Message *why) {
     int32_t status = LOCUS_OK;
     if (fails(why, status))
         return status;
-    *queue = new Queue{std::mt19937_64(settings().seed)};
+    *queue = new Queue{std::mt19937_64(settings().seed), nullptr};
     *machine = Machine{"emulated", settings().memory, 1, 0};
     return LOCUS_OK;
 }
 
 void close(Queue *queue) { delete queue; }
 
-int32_t use_stream(Queue *, void *, Message *why) {
+int32_t use_stream(Queue *queue, void *stream, Message *why) {
     int32_t status = LOCUS_OK;
-    fails(why, status);
+    if (!fails(why, status))
+        queue->stream = stream;
     return status;
 }
 
@@ -236,6 +245,8 @@ int32_t launch(Queue *queue, const Launch *launched, Message *why) {
     int32_t status = LOCUS_OK;
     if (fails(why, status))
         return status;
+    if (settings().stream != nullptr && queue->stream != settings().stream)
+        return say(why, LOCUS_E_INTERNAL, "a kernel was put on another stream than the caller's");
     ++counters().launches;
     Runner runner{*queue, why};
     return run(runner, *launched);

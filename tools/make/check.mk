@@ -6,9 +6,9 @@ check: $(CHECKS) ## the long tests: sanitizers, clang, SIMD=scalar, fuzzing, the
 	@echo "make check: all passed"
 
 # The areas whose tests use threads.
-THREADED := unit-core unit-graph unit-weights unit-pmq unit-cold
+THREADED := unit-core unit-graph unit-weights unit-pmq unit-cold unit-cuda
 # Long tests among them that use one, or several as shorter ones do: the thread sanitizer would see nothing new in them.
-ONE_THREADED := *.EveryInstructionSet*:Natural.LaplaceCountsFaces*:Update.DistanceRatiosFollow*:Search.*:Alerts.*:Insert.*:Log.*:Regions.*:*/Killed*:StorageFaults.*:*Memory.*
+ONE_THREADED := *.EveryInstructionSet*:Natural.LaplaceCountsFaces*:Update.DistanceRatiosFollow*:Search.*:Alerts.*:Insert.*:Log.*:Regions.*:*/Killed*:StorageFaults.*:*Memory.*:CudaFailures.*:Cuda*.EqualTheHeap*:Cuda*.*AfterRandomEdits:Cuda*.Brings*:CudaSibson.[GW]*
 
 # clang's address sanitizer: g++'s does not see what masked vector stores write.
 check-address: | $(call needs,test check)

@@ -155,6 +155,42 @@ TEST(CudaEngines, RunBlocksAtTheSameTime) {
     emulated::settings().threads = 1;
 }
 
+// Threads of a block and blocks at the same time: what races is seen by the thread sanitizer.
+TEST(CudaEngines, RunThreadsAtTheSameTime) {
+    const emulated::KeepSettings keep;
+    emulated::settings().lanes = 5;
+    emulated::settings().threads = emulated::settings().blocks = 2;
+    uint32_t seed = 30;
+    for (const uint32_t rule : {LOCUS_WEIGHT_MEAN_COMPLIANCE, LOCUS_WEIGHT_MEAN_STIFFNESS}) {
+        auto options = options_for(17, 9, 8);
+        options.word_bits = ++seed % 2 == 0 ? 32 : 64;
+        options.weight_rule = static_cast<uint32_t>(rule);
+        options.max_seeds = 64;
+        options.precision = 1.0 / 32;
+        const Graph graph(options, random_materials(17 * 9 * 8, 1, 8, 0.2, seed).data());
+        expect_equal({graph, sources_in(graph, 4, seed)}, "threads, seed " + std::to_string(seed));
+    }
+}
+
+TEST(CudaEngines, WorkOnTheCallersStream) {
+    const Graph graph(options_for(4, 3, 2), std::vector<float>(24, 1.0f).data());
+    const Source source = {0, 0, 0};
+    int stream = 0, other = 0;
+    const emulated::KeepSettings keep;
+    emulated::settings().stream = &stream;
+    for (const uint32_t kind : {LOCUS_ENGINE_BRICKS, LOCUS_ENGINE_RELAX, LOCUS_ENGINE_COMPACT}) {
+        const auto solve_on = [&](void *where) {
+            Words words;
+            locus::Progress progress;
+            device::make_engine(emulated::table(), static_cast<uint32_t>(kind), {2, 2, 2}, where)
+                ->solve({graph, {&source, 1}}, words, progress);
+        };
+        EXPECT_NO_THROW(solve_on(&stream)) << kind;
+        EXPECT_THROW(solve_on(&other), locus::Error) << kind;
+        EXPECT_THROW(solve_on(nullptr), locus::Error) << kind;
+    }
+}
+
 TEST(CudaEngines, TraceTheActiveVoxelsAsTheCpuDoes) {
     auto options = options_for(20, 14, 9);
     const Graph graph(options, random_materials(20 * 14 * 9, 1, 4, 0.1, 3).data());

@@ -169,6 +169,17 @@ TEST(CudaUpdate, EqualsAFreshSolveWithBlocksAtTheSameTime) {
     emulated::settings().threads = 1;
 }
 
+TEST(CudaUpdate, EqualsAFreshSolveWithThreadsAtTheSameTime) {
+    const emulated::KeepSettings keep;
+    emulated::settings().lanes = 5;
+    emulated::settings().threads = emulated::settings().blocks = 2;
+    for (const uint32_t word : {32u, 64u}) {
+        Edited edited(editable(17, 9, 8, word), word, 0);
+        for (int step = 0; step < 3 && !testing::Test::HasFailure(); ++step)
+            edited.step(std::to_string(word) + " bits, step " + std::to_string(step));
+    }
+}
+
 TEST(CudaUpdate, BringsBackOnlyWhatChanged) {
     auto options = editable(64, 64, 64, 32);
     const std::vector<float> materials(64 * 64 * 64, 1.0f);

@@ -79,6 +79,14 @@ TEST(CudaSibson, RunsQueriesAtTheSameTime) {
     emulated::settings().threads = 1;
 }
 
+TEST(CudaSibson, RunsThreadsAtTheSameTime) {
+    const emulated::KeepSettings keep;
+    emulated::settings().lanes = 5;
+    emulated::settings().threads = emulated::settings().blocks = 2;
+    const Solved solved(options_for(12, 9, 5), noise(12 * 9 * 5, 6, 0.1), 5, 4);
+    expect_cpus_rows(solved, every(solved, 45));
+}
+
 TEST(CudaSibson, SaysThatItsMemoryDoesNotSuffice) {
     const Solved solved(options_for(60, 60, 60), std::vector<float>(216000, 1.0f), 2, 5);
     Progress progress;
