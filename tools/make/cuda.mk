@@ -54,25 +54,33 @@ $(OUT)/tests/%/libcuda.so.1:
 $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION): $(OUT)/tests/stale/libcuda.so.1
 	@cp $< $@
 
-.PHONY: api-cuda-emulated api-cuda-stale api-cuda-failing
+.PHONY: api-cuda-emulated api-cuda-stale api-cuda-failing api-cuda-stream
 api-cuda-emulated: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) $< 24 GPU
 api-cuda-stale: $(OUT)/tests/api/cuda $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(OUT)/tests/stale $< 1 'of another version than liblocus'
 api-cuda-failing: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) EMULATED_CALLS=40 $< 1 fails
-api: api-cuda-emulated api-cuda-stale api-cuda-failing
+api-cuda-stream: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
+	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) EMULATED_STREAM=2 $< 6 stream
+api: api-cuda-emulated api-cuda-stale api-cuda-failing api-cuda-stream
 
-# One command for a machine with nvcc, g++ and a GPU, but no packages and no network.
+# One command for a machine with nvcc, g++ and a GPU, but no packages and no network. Without a GPU it runs what needs none.
 .PHONY: gpu-check gpu-check-here cuda-count
-gpu-check: ## on a machine with a GPU: build, test against the heap engine, compute-sanitizer, benchmarks, write tests/bench/results
+gpu-check: ## with nvcc, g++ and a GPU alone: build, test against the heap engine, compute-sanitizer, benchmarks, write tests/bench/results
 	@$(if $(NVCC),true,echo "gpu-check: there is no nvcc (PATH, /usr/local/cuda/bin, NVCC=)" >&2; exit 1)
 	@+$(MAKE) --no-print-directory SIMD=scalar SKIP_PACKAGES=1 gpu-check-here
-gpu-check-here: $(SHARED_locus) $(SHARED_CUDA) $(OUT)/tests/api/cuda $(BENCH_PROGRAM)
+# The program of tests/api with liblocus alone: the other libraries need packages.
+$(OUT)/tests/gpu/cuda: tests/api/cuda.c tests/api/check.h $(SHARED_locus)
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	@$(CC) -Iinclude $(CPPFLAGS) $(CFLAGS_ALL) -std=c99 $< -o $@ -L$(OUT) -llocus -Wl,-rpath,'$$ORIGIN/../..' $(LDFLAGS_ALL) -lm
+gpu-check-here: $(SHARED_CUDA) $(OUT)/tests/gpu/cuda $(OUT)/tests/emulated/count $(EMULATED)/liblocus_cuda.so.$(SOVERSION) \
+    $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION) $(BENCH_PROGRAM)
 	@NVCC=$(NVCC) tools/gpu_check.sh $(OUT)
 
 # What the solver would do on the gpu.* inputs, counted on the emulated device.
 $(OUT)/tests/emulated/count: $(EMULATED)/count.cpp.o $(EMULATED)/device.cpp.o $(OUT)/tests/bench/data/volumes.cpp.o $(OUT)/tests/bench/data/scans.cpp.o $(LIB_STATIC)
 	@$(CXX) $^ $(LDFLAGS_ALL) -o $@
-cuda-count: $(OUT)/tests/emulated/count ## rounds, visits and bytes of the CUDA solver, counted without a GPU
-	@$<
+cuda-count: $(OUT)/tests/emulated/count ## rounds, visits and bytes of the CUDA solver, counted without a GPU; SIDE=256 for larger cubes
+	@$< $(SIDE)
