@@ -15,9 +15,11 @@ ifneq ($(filter bench,$(MAKECMDGOALS)),)
 $(BENCH_OBJECTS): | $(call needs,bench)
 endif
 
-$(BENCH_PROGRAM): $(BENCH_OBJECTS) $(STATIC_locus_cold) $(LIB_STATIC)
+# So is the cold tier, which needs a package, where none is installed.
+BENCH_COLD := $(if $(SKIP_PACKAGES),$(call bench_library,sqlite3.h,yes),yes)
+$(BENCH_PROGRAM): $(BENCH_OBJECTS) $(if $(BENCH_COLD),$(STATIC_locus_cold)) $(LIB_STATIC)
 	@echo "  LD  $@"
-	@$(CXX) $^ $(LIBS_locus_cold) $(bench_libraries) $(LDFLAGS_ALL) -o $@
+	@$(CXX) $^ $(if $(BENCH_COLD),$(LIBS_locus_cold)) $(bench_libraries) $(LDFLAGS_ALL) -o $@
 
 .PHONY: bench bench-deps bench-plots check-bench
 bench: $(BENCH_PROGRAM) ## run the benchmarks into build/bench.jsonl; ONLY=regex for some, QUICK=1 for small sizes

@@ -1,6 +1,7 @@
 // pmq.cold.*: what leaves a store goes into SQLite in the background; queries see both.
 #include "tests/bench/harness/cases.hpp"
 
+#if __has_include(<sqlite3.h>)
 #include "tests/bench/harness/clock.hpp"
 #include "tests/bench/harness/scratch.hpp"
 #include "tests/bench/pmq/cover.hpp"
@@ -231,3 +232,8 @@ void add_pmq_cold(Cases &cases) {
 }
 
 } // namespace bench
+#else
+namespace bench {
+void add_pmq_cold(Cases &) {}
+} // namespace bench
+#endif
