@@ -25,6 +25,14 @@ void Restoring::add(const Batch &batch) {
         flush();
 }
 
+bool Restoring::takes_parts() const noexcept { return store_.layout_->fills_in_parts(); }
+
+std::unique_ptr<Layout::Parts> Restoring::begin_parts(std::span<const size_t> sizes) {
+    return store_.layout_->fill_parts(sizes, eviction_);
+}
+
+void Restoring::end_parts(Layout::Parts &parts) { store_.inserted_ += parts.install(); }
+
 void Restoring::flush() {
     if (keys_.empty())
         return;

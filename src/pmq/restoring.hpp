@@ -3,7 +3,9 @@
 
 #include "pmq/store.hpp"
 
+#include <memory>
 #include <optional>
+#include <span>
 
 namespace locus::pmq {
 
@@ -14,6 +16,10 @@ public:
     Restoring(Store &store, int64_t now, Crew &crew);
 
     void add(const Batch &batch); // saved ones
+    // Or in parts, by several threads; see Layout.
+    bool takes_parts() const noexcept;
+    std::unique_ptr<Layout::Parts> begin_parts(std::span<const size_t> sizes);
+    void end_parts(Layout::Parts &parts);
     void insert(std::span<const std::byte> records);
     // It has left: hand it over as soon as the store is used.
     void depart(Bytes record);

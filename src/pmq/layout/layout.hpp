@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace locus {
 class Crew;
@@ -143,6 +144,17 @@ public:
     virtual void fill(const Batch &batch, Crew &crew, Eviction &eviction, Departures &departures) = 0;
     virtual size_t fill_batch() const noexcept = 0;
 
+    // The same in parts, of which several threads take in one each: first their sizes are told, then they are filled in
+    // any order, then all of them are put in place. Without that, nothing has come in.
+    class Parts {
+    public:
+        virtual ~Parts() = default;
+        virtual void fill(size_t part, const Batch &batch) noexcept = 0; // once each, and no more than was told
+        virtual uint64_t install() = 0; // the number of records; between the layout's other calls
+    };
+    virtual bool fills_in_parts() const noexcept { return false; }
+    virtual std::unique_ptr<Parts> fill_parts(std::span<const size_t> sizes, Eviction &eviction);
+
     // The current moment. Any thread; to be asked while the view is held, or, where `views_last` is false, until the
     // next change.
     virtual std::shared_ptr<const View> view() const = 0;
@@ -153,5 +165,7 @@ public:
     // Verify every invariant; throws Error(LOCUS_E_INTERNAL) with what is broken.
     virtual void check() const = 0;
 };
+
+inline std::unique_ptr<Layout::Parts> Layout::fill_parts(std::span<const size_t>, Eviction &) { return nullptr; }
 
 } // namespace locus::pmq

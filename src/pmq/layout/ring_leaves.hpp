@@ -27,6 +27,8 @@ public:
     void erase(const Selection &selection, Departures &departures) override;
     void fill(const Batch &batch, Crew &crew, Eviction &eviction, Departures &departures) override;
     size_t fill_batch() const noexcept override;
+    bool fills_in_parts() const noexcept override { return !ages_.wanted(); }
+    std::unique_ptr<Parts> fill_parts(std::span<const size_t> sizes, Eviction &eviction) override;
     std::shared_ptr<const View> view() const override;
     bool views_last() const noexcept override { return true; }
     std::shared_ptr<const Snapshot> snapshot() const override;
@@ -71,13 +73,7 @@ private:
     struct Spot {
         size_t node, leaf;
     };
-    // A leaf that takes the records begin..end - 1 of a batch.
-    struct Filled {
-        Spot spot;
-        size_t begin, end;
-        Target target;
-        int64_t newest;
-    };
+    class Filling;
     // What readers of the versions born..retired - 1 may still see.
     struct Garbage {
         uint64_t born, retired;
@@ -124,9 +120,8 @@ private:
     void install(Node &node, size_t leaf, const Target &target) noexcept;
 
     // ring_fill.cpp
-    size_t filled_slots() const noexcept;
-    void fill_leaf(const Batch &batch, Filled &leaf) const noexcept;
-    Spot append_leaf(uint64_t key);
+    int64_t fill_leaf(const Batch &batch, Target &target) const noexcept;
+    void append_leaf(uint64_t key, const Target &filled);
 
     // ring_expiry.cpp
     void collect(size_t position, int64_t cutoff, Eviction *eviction, bool thoroughly, std::vector<Cut> &cuts) const;

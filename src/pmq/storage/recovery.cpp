@@ -11,6 +11,7 @@
 #include "pmq/storage/segment.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 
 namespace locus::pmq {
@@ -43,6 +44,52 @@ void restore(const Batch &saved, const RecordFormat &format, Restoring &restorin
     if (staying.count > 0)
         restoring.add(staying);
 }
+
+// Puts a saved file's records into a store block by block, and lets those depart that are older than a cutoff.
+class BlockTaker final : public SavedFile::Taker {
+public:
+    BlockTaker(Restoring &restoring, const RecordFormat &format, int64_t cutoff)
+        : restoring_(restoring), format_(format), cutoff_(cutoff) {}
+
+    void begin(std::span<const size_t> sizes) override {
+        parts_ = restoring_.begin_parts(sizes);
+        expired_.assign(sizes.size(), {});
+    }
+    void take(size_t block, const SavedFile::Block &content) override {
+        Batch staying{content.records.data(), content.keys.data(), content.keys.size(), content.oldest};
+        if (content.oldest < cutoff_)
+            staying = without_expired(content, expired_[block]);
+        parts_->fill(block, staying);
+    }
+    void end() override {
+        for (const std::vector<std::byte> &records : expired_)
+            for (size_t at = 0; at < records.size(); at += format_.size)
+                restoring_.depart(&records[at]);
+        restoring_.end_parts(*parts_);
+    }
+
+private:
+    Batch without_expired(const SavedFile::Block &content, std::vector<std::byte> &expired) const {
+        Batch staying{content.records.data(), content.keys.data(), 0, INT64_MAX};
+        for (size_t i = 0; i < content.keys.size(); ++i) {
+            std::byte *const record = &content.records[i * format_.size];
+            if (format_.time(record) < cutoff_) {
+                expired.insert(expired.end(), record, record + format_.size);
+                continue;
+            }
+            std::memmove(&content.records[staying.count * format_.size], record, format_.size);
+            content.keys[staying.count++] = content.keys[i];
+            staying.oldest = std::min(staying.oldest, format_.time(record));
+        }
+        return staying;
+    }
+
+    Restoring &restoring_;
+    const RecordFormat &format_;
+    const int64_t cutoff_;
+    std::unique_ptr<Layout::Parts> parts_;
+    std::vector<std::vector<std::byte>> expired_; // of each block
+};
 
 // The segments from one on, and what they tell of the states behind the saved one.
 class Log {
@@ -277,18 +324,21 @@ std::unique_ptr<Store> load(const std::string &path, const locus_pmq_options *op
     Crew crew(file.threads());
     Restoring restoring(*store, file.header().now, crew);
     const int64_t cutoff = std::max(file.header().cutoff, restoring.moment().cutoff);
-    file.for_each(crew, progress, [&](const Batch &batch) {
-        if (batch.oldest >= cutoff) {
-            restoring.add(batch);
-            return;
-        }
-        restore(batch, file.format(), restoring, [&](Bytes record) {
-            const bool expired = file.format().time(record) < cutoff;
-            if (expired)
-                restoring.depart(record);
-            return expired;
+    if (restoring.takes_parts()) {
+        BlockTaker taker(restoring, file.format(), cutoff);
+        file.for_each_apart(crew, progress, taker);
+    } else {
+        file.for_each(crew, progress, [&](const Batch &batch) {
+            if (batch.oldest >= cutoff)
+                return restoring.add(batch);
+            restore(batch, file.format(), restoring, [&](Bytes record) {
+                const bool expired = file.format().time(record) < cutoff;
+                if (expired)
+                    restoring.depart(record);
+                return expired;
+            });
         });
-    });
+    }
     restoring.finish();
     return store;
 }

@@ -5,7 +5,8 @@
 #include "core/team.hpp"
 
 #include <algorithm>
-#include <exception>
+#include <mutex>
+#include <vector>
 
 namespace locus::pmq {
 namespace {
@@ -14,6 +15,8 @@ constexpr uint64_t block_bytes = 256 << 10; // about
 constexpr uint64_t most_block_records = 1 << 20;
 constexpr size_t sum_bytes = sizeof(uint64_t);
 constexpr uint64_t group_bytes = 24 * block_bytes; // that are read together
+constexpr uint64_t apart_bytes = 96 * block_bytes; // that are taken in together, block by block
+constexpr uint64_t apart_grain = 5;                // blocks a thread takes one after the other
 constexpr uint32_t most_threads = 4;               // that read
 
 // Where a block begins; behind the last one, where the file ends.
@@ -122,8 +125,8 @@ void SavedFile::check_header() {
         fail(LOCUS_E_FORMAT, path, ": ends at byte ", file_.size(), ", not at ", header_.bytes);
 }
 
-// A block's records, once they have proved sound, and their keys; the smallest of their times.
-int64_t SavedFile::read_block(uint64_t block, std::span<std::byte> records, uint64_t *keys) const {
+// A block's records, once they have proved sound, and their keys.
+SavedFile::Result SavedFile::read_block(uint64_t block, std::span<std::byte> records, uint64_t *keys) const {
     const uint64_t offset = block_offset(header_, block);
     uint64_t sum;
     const std::span<std::byte> sum_word(reinterpret_cast<std::byte *>(&sum), sum_bytes);
@@ -134,7 +137,8 @@ int64_t SavedFile::read_block(uint64_t block, std::span<std::byte> records, uint
         fail(LOCUS_E_FORMAT, file_.path(), ": ends at byte ", offset + got, ", not at ", header_.bytes);
     if (sum != checksum(records, block))
         fail(LOCUS_E_FORMAT, file_.path(), ": byte ", offset, ": the checksum of block ", block, " does not match");
-    return find_keys(records, offset + sum_bytes, keys);
+    const int64_t oldest = find_keys(records, offset + sum_bytes, keys);
+    return {oldest, keys[0], keys[records.size() / format_.size - 1], nullptr};
 }
 
 void SavedFile::check_record(Bytes record, uint64_t offset) const {
@@ -179,63 +183,138 @@ void SavedFile::check_order(std::span<const uint64_t> keys, uint64_t before, uin
     }
 }
 
-// The last key. Of several damaged blocks the first one is reported.
-uint64_t SavedFile::read_group(Crew &crew, const Group &group, uint64_t before, int64_t &oldest) const {
-    struct Result {
-        int64_t oldest;
-        std::exception_ptr error;
-    };
-    const auto part = [&](auto records, size_t block, size_t size) {
-        return records.subspan(block * size, std::min(size, records.size() - block * size));
-    };
-    const size_t per_block = header_.block_records, block_size = per_block * format_.size;
-    std::vector<Result> results((group.keys.size() + per_block - 1) / per_block);
-    crew.for_each(results.size(), 1, [&](uint64_t i, uint64_t) {
-        try {
-            results[i].oldest =
-                read_block(group.first + i, part(group.records, i, block_size), &group.keys[i * per_block]);
-        } catch (...) {
-            results[i].error = std::current_exception();
+// Read the blocks begin..end - 1, `before` being the last key so far; the smallest of their times. Of several damaged
+// blocks the first one is reported.
+int64_t SavedFile::read_group(Crew &crew, uint64_t begin, uint64_t end, uint64_t grain, uint64_t &before,
+                              ReadBlock read) const {
+    std::vector<Result> results(end - begin);
+    crew.for_each(results.size(), grain, [&](uint64_t first, uint64_t last) {
+        for (uint64_t i = first; i < last; ++i) {
+            try {
+                results[i] = read(begin + i);
+            } catch (...) {
+                results[i].error = std::current_exception();
+            }
         }
     });
-    oldest = INT64_MAX;
-    for (size_t i = 0; i < results.size(); ++i) {
-        if (results[i].error)
-            std::rethrow_exception(results[i].error);
-        oldest = std::min(oldest, results[i].oldest);
-        const auto keys = part(group.keys, i, per_block);
-        check_order(keys.first(1), before, block_offset(header_, group.first + i) + sum_bytes);
-        before = keys.back();
+    int64_t oldest = INT64_MAX;
+    for (const Result &result : results) {
+        if (result.error)
+            std::rethrow_exception(result.error);
+        check_order({&result.first, 1}, before, block_offset(header_, begin++) + sum_bytes);
+        before = result.last;
+        oldest = std::min(oldest, result.oldest);
     }
-    return before;
+    return oldest;
 }
 
 uint32_t SavedFile::threads() const noexcept {
     return static_cast<uint32_t>(std::min<uint64_t>(std::min(default_threads(), most_threads), blocks(header_)));
 }
 
-void SavedFile::for_each(Crew &crew, Progress &progress, FunctionRef<void(const Batch &)> visit) const {
+uint64_t SavedFile::records_before(uint64_t block) const noexcept {
+    return std::min(block * header_.block_records, header_.records);
+}
+
+// So many neighbouring blocks after the other: work(begin, end), which calls its argument `report` with its share done.
+template <typename Work>
+void SavedFile::in_groups(uint64_t bytes, Progress &progress, Work &&work) const {
     file_.expect_sequence();
-    const uint64_t together = std::max<uint64_t>(group_bytes / (header_.block_records * format_.size), 1);
-    const uint64_t most = std::min(together * header_.block_records, header_.records);
-    std::vector<std::byte> records(most * format_.size);
-    std::vector<uint64_t> keys(most);
-    uint64_t before = 0;
-    for (uint64_t block = 0; block < blocks(header_); block += together) {
-        const uint64_t begin = block * header_.block_records, count = std::min(most, header_.records - begin);
-        const auto report = [&](double part) {
-            progress.report((static_cast<double>(begin) + part * static_cast<double>(count)) /
-                            static_cast<double>(header_.records));
+    const uint64_t together = std::max<uint64_t>(bytes / (header_.block_records * format_.size), 1);
+    for (uint64_t begin = 0, all = blocks(header_); begin < all; begin += together) {
+        const uint64_t end = std::min(begin + together, all);
+        const auto report = [&](double share) {
+            const auto done = static_cast<double>(begin) + share * static_cast<double>(end - begin);
+            progress.report(done / static_cast<double>(all));
         };
         report(0);
-        int64_t oldest;
-        before =
-            read_group(crew, {block, {records.data(), count * format_.size}, {keys.data(), count}}, before, oldest);
-        file_.expect(block_offset(header_, block + together), group_bytes);
-        report(0.5);
-        visit({records.data(), keys.data(), count, oldest});
+        work(begin, end, report);
         report(1);
     }
+}
+
+void SavedFile::for_each(Crew &crew, Progress &progress, FunctionRef<void(const Batch &)> visit) const {
+    const size_t size = format_.size;
+    std::vector<std::byte> records;
+    std::vector<uint64_t> keys;
+    uint64_t last = 0;
+    in_groups(group_bytes, progress, [&](uint64_t begin, uint64_t end, auto &&report) {
+        const uint64_t before = records_before(begin), count = records_before(end) - before;
+        records.resize(count * size);
+        keys.resize(count);
+        const int64_t oldest = read_group(crew, begin, end, 1, last, [&](uint64_t block) {
+            const uint64_t at = records_before(block) - before, part = records_before(block + 1) - before - at;
+            return read_block(block, std::span(records).subspan(at * size, part * size), &keys[at]);
+        });
+        file_.expect(block_offset(header_, end), group_bytes);
+        report(0.5);
+        visit({records.data(), keys.data(), count, oldest});
+    });
+}
+
+// Memory for a block for each thread that reads one: what it has read stays in the thread's cache until it is taken.
+class SavedFile::Rooms {
+public:
+    struct Room {
+        std::vector<std::byte> records;
+        std::vector<uint64_t> keys;
+    };
+    Rooms(size_t rooms, uint64_t records, size_t size) : rooms_(rooms) {
+        for (Room &room : rooms_) {
+            room.records.resize(records * size);
+            room.keys.resize(records);
+            free_.push_back(&room);
+        }
+    }
+    class Use {
+    public:
+        explicit Use(Rooms &rooms) : room(rooms.take()), rooms_(rooms) {}
+        ~Use() { rooms_.give_back(room); }
+        Use(const Use &) = delete;
+        Use &operator=(const Use &) = delete;
+        Room &room;
+
+    private:
+        Rooms &rooms_;
+    };
+
+private:
+    Room &take() noexcept {
+        const std::lock_guard lock(mutex_);
+        Room &room = *free_.back();
+        free_.pop_back();
+        return room;
+    }
+    void give_back(Room &room) noexcept {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(&room);
+    }
+
+    std::vector<Room> rooms_;
+    std::vector<Room *> free_;
+    std::mutex mutex_;
+};
+
+void SavedFile::for_each_apart(Crew &crew, Progress &progress, Taker &taker) const {
+    Rooms rooms(threads(), std::min(header_.block_records, header_.records), format_.size);
+    std::vector<size_t> sizes;
+    uint64_t last = 0;
+    in_groups(apart_bytes, progress, [&](uint64_t begin, uint64_t end, auto &&report) {
+        sizes.clear();
+        for (uint64_t block = begin; block < end; ++block)
+            sizes.push_back(records_before(block + 1) - records_before(block));
+        taker.begin(sizes);
+        read_group(crew, begin, end, apart_grain, last, [&](uint64_t block) {
+            const Rooms::Use use(rooms);
+            const size_t count = sizes[block - begin];
+            const std::span records = std::span(use.room.records).first(count * format_.size);
+            const Result result = read_block(block, records, use.room.keys.data());
+            taker.take(block - begin, {records, std::span(use.room.keys).first(count), result.oldest});
+            return result;
+        });
+        report(0.9); // they have yet to be put in place
+        taker.end();
+    });
 }
 
 } // namespace locus::pmq

@@ -7,7 +7,9 @@
 #include "core/progress.hpp"
 #include "pmq/layout/layout.hpp"
 
-#include <vector>
+#include <exception>
+#include <span>
+#include <string>
 
 namespace locus::pmq {
 
@@ -44,16 +46,42 @@ public:
     // blocks; `visit` is called by this thread.
     void for_each(Crew &crew, Progress &progress, FunctionRef<void(const Batch &)> visit) const;
 
-private:
-    // Neighbouring blocks that are read together.
-    struct Group {
-        uint64_t first; // block
+    // A sound block. What takes it may change it in place.
+    struct Block {
         std::span<std::byte> records;
         std::span<uint64_t> keys;
+        int64_t oldest;
     };
+    // Takes in blocks while they are at hand: of some blocks first the numbers of their records, by this thread, then
+    // the blocks, by the crew's threads, in any order; then `end`, by this thread. Without that, they count for
+    // nothing: one of them was not sound.
+    class Taker {
+    public:
+        virtual void begin(std::span<const size_t> sizes) = 0;
+        virtual void take(size_t block, const Block &content) = 0; // its number among these blocks
+        virtual void end() = 0;
+
+    protected:
+        ~Taker() = default;
+    };
+    void for_each_apart(Crew &crew, Progress &progress, Taker &taker) const;
+
+private:
+    // What reading a block came to.
+    struct Result {
+        int64_t oldest = INT64_MAX;
+        uint64_t first = 0, last = 0; // keys
+        std::exception_ptr error;
+    };
+    using ReadBlock = FunctionRef<Result(uint64_t block)>;
+    class Rooms;
+    uint64_t records_before(uint64_t block) const noexcept;
+    template <typename Work>
+    void in_groups(uint64_t bytes, Progress &progress, Work &&work) const;
     void check_header();
-    uint64_t read_group(Crew &crew, const Group &group, uint64_t before, int64_t &oldest) const;
-    int64_t read_block(uint64_t block, std::span<std::byte> records, uint64_t *keys) const;
+    int64_t read_group(Crew &crew, uint64_t begin, uint64_t end, uint64_t grain, uint64_t &before,
+                       ReadBlock read) const;
+    Result read_block(uint64_t block, std::span<std::byte> records, uint64_t *keys) const;
     int64_t find_keys(std::span<const std::byte> records, uint64_t offset, uint64_t *keys) const;
     void check_record(Bytes record, uint64_t offset) const;
     void check_order(std::span<const uint64_t> keys, uint64_t before, uint64_t offset) const;
