@@ -41,7 +41,7 @@ stage "the same on a caller's stream" emulated EMULATED_STREAM=2 "$program" 12 s
 stage "a device that fails" emulated EMULATED_CALLS=40 "$program" 1 fails
 stage "a library of another build" env LD_LIBRARY_PATH="$out/tests/stale" "$program" 1 'of another version than liblocus'
 LINES_KEPT=200 stage "the compiler's report" tools/ptxas_table.sh "$out"/cuda/*.ptxas
-LINES_KEPT=200 stage "rounds, visits and bytes, counted" "$out/tests/emulated/count" "$(rounds 128 32)"
+LINES_KEPT=200 stage "rounds, visits and bytes, counted" "$out/tests/emulated/count" "$(rounds 64 32)"
 
 sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null)
 checks=(memcheck racecheck synccheck initcheck)
@@ -49,7 +49,7 @@ if [ -z "$gpu" ]; then
     for what in "random graphs on the GPU against the heap engine" "the same on a caller's stream" "${checks[@]/#/compute-sanitizer: }" benchmarks; do
         not_run "$what" "there is no GPU that Locus can use"
     done
-    sed 's/^/   /' <<<"$why" | tee -a "$log"
+    head -n 1 <<<"$why" | tee -a "$log"
     [ $failed = 0 ] && echo "gpu-check: all that needs no GPU passed" || echo "gpu-check: what needs no GPU failed too" >&2
     echo "gpu-check: incomplete, there is no GPU; see $log" >&2
     exit 1

@@ -12,7 +12,7 @@ cat "$@" | awk '
         if ($0 ~ /bytes smem/) { shared = $0; sub(/ bytes smem.*/, "", shared); sub(/.*[ ,]/, "", shared) }
         print name "\t" arch "\t" registers "\t" shared "\t" stores "\t" loads
     }' | c++filt | sed -E \
-    -e 's/void locus::cuda::(item|block)_kernel<locus::device::/\1 /' -e 's/locus::device:://g' -e 's/>\([^\t]*\)\t/\t/' \
+    -e 's/void locus::cuda::(item|block)_kernel<locus::device::/\1 /' -e 's/locus::device:://g' -e 's/ ?>\([^\t]*\)\t/\t/' -e 's/> >/>>/g' \
     -e 's/unsigned (int|char)/\1/g' -e 's/unsigned long/long/g' -e 's/\bint\b/32/g' -e 's/\blong\b/64/g' |
     grep -E '^(item|block) ' | sort -t "$(printf '\t')" -k2,2 -k1,1 -u |
     awk -F'\t' 'BEGIN { print "| kernel | GPU | registers | shared | spill stores | spill loads |"; print "|---|---|---|---|---|---|" }

@@ -9,13 +9,18 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
+#include <stdexcept>
 
 namespace bench {
 
 std::string data_file(const std::string &path) {
     const char *folder = std::getenv("LOCUS_DATA");
-    return std::string(folder != nullptr ? folder : "../shared/data") + "/" + path;
+    const std::filesystem::path file = std::filesystem::path(folder != nullptr ? folder : "../shared/data") / path;
+    if (!std::filesystem::exists(file))
+        throw std::runtime_error(file.string() + " is not there (set LOCUS_DATA to the data folder)");
+    return file.string();
 }
 
 } // namespace bench

@@ -65,6 +65,25 @@ api-cuda-stream: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) EMULATED_STREAM=2 $< 6 stream
 api: api-cuda-emulated api-cuda-stale api-cuda-failing api-cuda-stream
 
+# The library itself, as far as it goes without a GPU: what it exports, needs and holds; with a driver that is none it says so in CUDA's
+# words; and what its kernels compute with.
+.PHONY: exports-cuda api-cuda-driverless check-ptx
+exports-cuda: $(SHARED_CUDA) | $(call needs,test)
+	$(STAGE) $(FLAVOUR)$@ tests/abi/cuda.py $< $(VERSION)
+api-cuda-driverless: $(OUT)/tests/api/cuda $(OUT)/tests/driver/libcuda.so.1 $(SHARED_CUDA)
+	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(OUT)/tests/driver $< 1 'cudaGetDeviceCount: '
+PTX := $(patsubst cuda/%.cu,$(OUT)/cuda/%.ptx,$(filter-out cuda/library.cu cuda/compact.cu,$(CUDA_SOURCES)))
+$(OUT)/cuda/%.ptx: cuda/%.cu $(OUT)/cuda/%.cu.o
+	@echo "  PTX $<"
+	@$(NVCC) $(filter-out $(NVCC_ARCH),$(NVCC_FLAGS)) -arch=compute_90 -ptx $< -o $@
+check-ptx: $(PTX)
+	$(STAGE) $@ tests/abi/ptx.sh $^
+ifneq ($(NVCC),)
+exports: exports-cuda
+api: api-cuda-driverless
+check: check-ptx
+endif
+
 # One command for a machine with nvcc, g++ and a GPU, but no packages and no network. Without a GPU it runs what needs none.
 .PHONY: gpu-check gpu-check-here cuda-count
 gpu-check: ## with nvcc, g++ and a GPU alone: build, test against the heap engine, compute-sanitizer, benchmarks, write tests/bench/results
@@ -84,3 +103,11 @@ $(OUT)/tests/emulated/count: $(EMULATED)/count.cpp.o $(EMULATED)/device.cpp.o $(
 	@$(CXX) $^ $(LDFLAGS_ALL) -o $@
 cuda-count: $(OUT)/tests/emulated/count ## rounds, visits and bytes of the CUDA solver, counted without a GPU; SIDE=256 for larger cubes
 	@$< $(SIDE)
+
+# The tables of docs/cuda.md, made anew.
+.PHONY: cuda-document
+cuda-document: $(CUDA_OBJECTS) $(OUT)/tests/emulated/count ## renew the tables of docs/cuda.md: minutes
+	@tools/ptxas_table.sh $(CUDA_OBJECTS:.o=.ptxas) | grep -v '| sm_80 |' >$(OUT)/cuda/kernels.md
+	@$(OUT)/tests/emulated/count 256 >$(OUT)/cuda/counts.md
+	@awk -F ' *[|] *' -f tools/tables.awk $(OUT)/cuda/kernels.md $(OUT)/cuda/counts.md docs/cuda.md >$(OUT)/cuda/document.md
+	@cp $(OUT)/cuda/document.md docs/cuda.md

@@ -48,7 +48,7 @@ const char *parse(const char *from, const char *end, Number &number) {
     return next + 1; // past the comma
 }
 
-locus_point32 parse_line(std::string_view line) {
+[[maybe_unused]] locus_point32 parse_line(std::string_view line) {
     locus_point32 record{};
     const char *const end = line.data() + line.size();
     int occupied = 0;
