@@ -29,6 +29,7 @@ namespace {
 
 using namespace locus;
 
+constexpr uint32_t h200_blocks = 132 * 6;       // visits at the same time: multiprocessors, blocks by their registers
 constexpr double floor_bytes = 12;              // a voxel's operand read, its word written and read once
 constexpr double slow = 3.35e12, fast = 4.8e12; // bytes a second of an H100's and an H200's memory, nominal
 
@@ -85,6 +86,7 @@ void count(const std::string &name, const bench::Volume &volume, uint32_t words)
 } // namespace
 
 int main(int argc, char **argv) {
+    device::emulated::settings().blocks = h200_blocks;
     const uint64_t most = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 64;
     std::printf(
         "| input | word | rounds | launched | bricks | visits a brick | in vain | passes a visit | MB moved | bytes "

@@ -1,6 +1,7 @@
 // The grid in bricks of 8 x 8 x 8 voxels on a device, and the rounds in which bricks are visited. In each round the
 // waiting bricks whose keys (the smallest word that would reach them) fall into the lowest bucket are visited, a block
-// each; what they wake waits for the next round. Nothing of this passes through the host: it only launches rounds.
+// each, or all that wait where there are blocks for them; what they wake waits for the next round. Nothing of this
+// passes through the host: it only launches rounds.
 #pragma once
 
 #include "graph/device/atomics.hpp"
@@ -84,6 +85,7 @@ struct Rounds {
     uint32_t *touched;    // bricks whose words changed, null where nobody asks,
     uint32_t *is_touched; // and by brick whether it stands there
     uint32_t width_bits;  // keys fall into buckets of 2^width_bits
+    uint32_t at_once;     // so many bricks are visited at the same time: no fewer wait for a later bucket
 
     LOCUS_HD void wake(uint32_t brick, Word with, uint32_t round) const {
         if (atomic_min(&key[brick], with) == kNoKey<Word>)
@@ -117,7 +119,7 @@ struct Select {
         }
         const uint32_t brick = rounds.waiting[round][i];
         const Word key = rounds.key[brick];
-        if (key >> rounds.width_bits <= now.least >> rounds.width_bits) {
+        if (now.waiting <= rounds.at_once || key >> rounds.width_bits <= now.least >> rounds.width_bits) {
             rounds.key[brick] = kNoKey<Word>;
             rounds.near[atomic_add(&now.near, 1u)] = brick;
         } else {

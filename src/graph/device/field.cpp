@@ -97,7 +97,8 @@ Rounds<Word> Field<Word>::rounds(bool record) const {
             near_.get(),
             record ? touched_.get() : nullptr,
             is_touched_.get(),
-            std::min<uint32_t>(width + graph_.layout().label_bits, std::numeric_limits<Word>::digits - 1)};
+            std::min<uint32_t>(width + graph_.layout().label_bits, std::numeric_limits<Word>::digits - 1),
+            at_once_};
 }
 
 template <typename Word>
@@ -229,6 +230,7 @@ void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
             Launch visiting = kernel;
             visiting.kernel = raising ? Kernel::raise : Kernel::lower;
             const uint64_t blocks = std::min<uint64_t>(device_.resident(visiting, visit), layout().count());
+            at_once_ = static_cast<uint32_t>(blocks);
             uint64_t batch = first_rounds;
             for (;;) {
                 for (uint64_t i = 0; i < batch; ++i) {

@@ -72,6 +72,7 @@ private:
     uint64_t reached_ = 0;
     std::vector<graph::Source> sources_;
     uint32_t round_ = 0;
+    uint32_t at_once_ = 0;
     Work work_;
 };
 

@@ -1,6 +1,7 @@
 // The solvers of the CUDA backend, run by the emulated device, against the heap engine: the same bodies that the GPU
 // runs, with items, threads and blocks in changing orders.
 #include "graph/device/engine.hpp"
+#include "graph/device/field.hpp"
 #include "tests/emulated/device.hpp"
 #include "tests/unit/graph/support.hpp"
 
@@ -81,6 +82,7 @@ std::vector<float> materials_of(const std::string &topology, const std::array<ui
 }
 
 TEST(CudaEngines, EqualTheHeapOnEveryTopologyAndShape) {
+    const emulated::KeepSettings keep;
     uint32_t seed = 0;
     for (const auto &dims :
          {std::array<uint64_t, 3>{17, 18, 19}, {8, 8, 8}, {1, 9, 33}, {40, 1, 1}, {25, 16, 3}, {1, 1, 1}})
@@ -92,6 +94,7 @@ TEST(CudaEngines, EqualTheHeapOnEveryTopologyAndShape) {
                 options.precision = 1.0 / 32;
                 if (seed % 4 == 0)
                     options.spacing[1] = 2.25;
+                emulated::settings().blocks = seed % 2 == 0 ? 3 : 100;
                 const Graph graph(options, materials_of(topology, dims, seed).data());
                 const auto sources = sources_in(graph, 1 + seed % 6, seed);
                 if (!sources.empty())
@@ -170,6 +173,24 @@ TEST(CudaEngines, RunThreadsAtTheSameTime) {
         const Graph graph(options, random_materials(17 * 9 * 8, 1, 8, 0.2, seed).data());
         expect_equal({graph, sources_in(graph, 4, seed)}, "threads, seed " + std::to_string(seed));
     }
+}
+
+// Where there are blocks for all bricks that wait, none waits for a later round.
+TEST(CudaEngines, TakeFewerRoundsWithMoreBlocks) {
+    const emulated::KeepSettings keep;
+    const Graph graph(options_for(40, 40, 24), random_materials(40 * 40 * 24, 1, 10, 0.1, 5).data());
+    const std::vector<Source> sources = sources_in(graph, 3, 5);
+    const auto rounds = [&](uint32_t blocks) {
+        emulated::settings().blocks = blocks;
+        device::Device device(emulated::table());
+        device::Field<uint64_t> field(device, graph);
+        Words words;
+        locus::Progress progress;
+        field.solve({graph, sources}, words, progress);
+        return field.work().rounds;
+    };
+    ASSERT_EQ(graph.layout().bits, 64u);
+    EXPECT_LT(rounds(75), rounds(1));
 }
 
 TEST(CudaEngines, WorkOnTheCallersStream) {
