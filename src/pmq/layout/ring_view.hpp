@@ -57,6 +57,7 @@ private:
     bool within(size_t position, size_t leaf, const KeyRange &keys) const noexcept;
     uint64_t count_leaf(size_t position, size_t leaf, const KeyRange &keys, int64_t from) const noexcept;
     void prefetch_times(uint64_t at, int64_t from) const noexcept;
+    void prefetch_keys(uint64_t at) const noexcept;
     template <typename Visit>
     bool visit_ahead(const Place &place, int64_t from, Visit &&visit) const;
     uint64_t highest(size_t position, size_t leaf) const noexcept;
