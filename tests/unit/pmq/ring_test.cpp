@@ -85,6 +85,31 @@ protected:
         return records;
     }
 
+    // Of a window of 20000 units.
+    void count_from_any_time(int64_t unit) {
+        std::shared_ptr<const View> held;
+        for (int64_t now = 0, step = 0; now < 150000; now += random() % 40 == 0 ? 1500 : 50, ++step) {
+            Records batch = cloud(100, now, step % 2000 < 1000 ? 0 : 10);
+            for (size_t i = 0; i < batch.size(); ++i)
+                batch[i].time = batch[i].time * unit - unit + 1 + static_cast<int64_t>(i) * unit / 100;
+            insert(batch, now * unit);
+            if (step % 50 == 0)
+                held = step % 100 == 0 ? store->view() : nullptr;
+            if (step % 20 != 0)
+                continue;
+            Selection selection;
+            for (int i = 0; i < 4; ++i) {
+                const int64_t most = i == 0 ? 20001 * unit : (20000 + now / 4) * unit;
+                selection.times.from = now * unit - static_cast<int64_t>(random() % static_cast<uint64_t>(most));
+                const auto counted = std::count_if(
+                    model.begin(), model.end(), [&](const locus_point32 &r) { return r.time >= selection.times.from; });
+                ASSERT_EQ(count(*store->view(), selection), static_cast<uint64_t>(counted));
+            }
+            if (step % 200 == 0)
+                compare();
+        }
+    }
+
     std::unique_ptr<Store> store;
     std::deque<locus_point32> model;
     std::mt19937_64 random{7};
@@ -95,6 +120,12 @@ protected:
 class RingWindow : public Ring {
 protected:
     RingWindow() : Ring(20000) {}
+};
+
+class RingLongWindow : public Ring {
+protected:
+    static constexpr int64_t scale = 104;
+    RingLongWindow() : Ring(20000 * scale) {}
 };
 
 TEST_F(Ring, ThreeMillionRecordsOnFewPlaces) {
@@ -134,25 +165,10 @@ TEST_F(RingWindow, WanderingWindowKeepsItsMemory) {
 }
 
 // The leaves' times of what expires next, under a clock that goes on by leaps and bounds, and beside a reader.
-TEST_F(RingWindow, CountsFromAnyTimeOn) {
-    std::shared_ptr<const View> held;
-    for (int64_t now = 0, step = 0; now < 150000; now += random() % 40 == 0 ? 1500 : 50, ++step) {
-        insert(cloud(100, now, step % 2000 < 1000 ? 0 : 10), now);
-        if (step % 50 == 0)
-            held = step % 100 == 0 ? store->view() : nullptr;
-        if (step % 20 != 0)
-            continue;
-        Selection selection;
-        for (int i = 0; i < 4; ++i) {
-            selection.times.from = now - static_cast<int64_t>(random() % (i == 0 ? 20001 : 20000 + now / 4));
-            const auto counted = std::count_if(model.begin(), model.end(),
-                                               [&](const locus_point32 &r) { return r.time >= selection.times.from; });
-            ASSERT_EQ(count(*store->view(), selection), static_cast<uint64_t>(counted));
-        }
-        if (step % 200 == 0)
-            compare();
-    }
-}
+TEST_F(RingWindow, CountsFromAnyTimeOn) { count_from_any_time(1); }
+
+// A window so long that these times are rounded, and just shorter than a power of two of their units.
+TEST_F(RingLongWindow, CountsFromAnyTimeOn) { count_from_any_time(scale); }
 
 TEST_F(RingWindow, LateRecordsKeepTheMemorySteady) {
     uint64_t most_late = 0;
