@@ -62,7 +62,7 @@ class Diagram:
         A grain's voxels (x, y, z), each 1 to 1024, for Engine.COMPACT of the CUDA backend.
     stream : int, optional
         The address of the ``cudaStream_t`` that the CUDA backend puts all work on, such as ``stream.ptr`` of a CuPy stream; it must
-        outlive the diagram. By default a stream of the diagram's own.
+        outlive the diagram and its weights. By default streams of the library's own.
     """
 
     def __init__(
