@@ -50,6 +50,11 @@ TEST_P(SavedFiles, LoadIntoEveryLayout) {
         const locus_pmq_options other = options_of(to, record, 4000);
         const StoreHandle loaded = load_store(path, &other);
         ASSERT_EQ(content_of(loaded.get(), record), content);
+        Item late = unpack(content.records.data(), record); // older than those it comes to lie among
+        late.time = content.now - 3999;
+        const auto one = pack({late}, record);
+        ASSERT_EQ(locus_pmq_insert(loaded.get(), one.data(), 1, content.now), LOCUS_OK);
+        ASSERT_EQ(locus_pmq_check(loaded.get()), LOCUS_OK) << locus_last_error();
         Changes later = changes;
         for (int i = 0; i < 10; ++i) {
             const auto batch = later.batch(300);
