@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -21,6 +24,22 @@ TEST(Crew, RunsEveryPieceOfEveryLoopOnce) {
             ASSERT_EQ(seen, std::vector<int>(count, 1)) << threads << " threads";
         }
     }
+}
+
+// The caller has its piece done at once, the helper takes its time.
+TEST(Crew, WaitsForPiecesOfOthers) {
+    locus::Crew crew(2);
+    const auto caller = std::this_thread::get_id();
+    std::atomic<int> begun = 0, done = 0;
+    crew.for_each(2, 1, [&](uint64_t, uint64_t) {
+        ++begun;
+        for (int i = 0; begun < 2 && i < 1000; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (std::this_thread::get_id() != caller)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        ++done;
+    });
+    EXPECT_EQ(done, 2);
 }
 
 } // namespace

@@ -50,11 +50,6 @@ TEST_P(SavedFiles, LoadIntoEveryLayout) {
         const locus_pmq_options other = options_of(to, record, 4000);
         const StoreHandle loaded = load_store(path, &other);
         ASSERT_EQ(content_of(loaded.get(), record), content);
-        Item late = unpack(content.records.data(), record); // older than those it comes to lie among
-        late.time = content.now - 3999;
-        const auto one = pack({late}, record);
-        ASSERT_EQ(locus_pmq_insert(loaded.get(), one.data(), 1, content.now), LOCUS_OK);
-        ASSERT_EQ(locus_pmq_check(loaded.get()), LOCUS_OK) << locus_last_error();
         Changes later = changes;
         for (int i = 0; i < 10; ++i) {
             const auto batch = later.batch(300);
@@ -146,6 +141,24 @@ TEST(SavedFile, KeepsTheOrderOfArrivalAmongEqualKeys) {
         EXPECT_EQ(content_of(load_store(folder / "saved", &other).get(), options.record),
                   content_of(pmq.get(), options.record));
     }
+}
+
+// A leaf that was in the order of time is not any more.
+TEST(SavedFile, LateRecordsComeAfterLoading) {
+    const Scratch folder;
+    const locus_pmq_options options = options_of(layouts[0], LOCUS_RECORD_POINT32);
+    std::vector<Item> items(100);
+    for (size_t i = 0; i < items.size(); ++i)
+        items[i] = {static_cast<double>(i) / 4, static_cast<double>(i), static_cast<int64_t>(1000 + i), i, 0};
+    const auto batch = pack(items, options.record), late = pack({{7, 28, 500, 100, 0}}, options.record);
+    locus_pmq *made = nullptr;
+    ASSERT_EQ(locus_pmq_create(&options, &made), LOCUS_OK);
+    const StoreHandle pmq(made);
+    ASSERT_EQ(locus_pmq_insert(made, batch.data(), items.size(), 2000), LOCUS_OK);
+    save_to(pmq, folder / "saved");
+    const StoreHandle loaded = load_store(folder / "saved", &options);
+    ASSERT_EQ(locus_pmq_insert(loaded.get(), late.data(), 1, 2000), LOCUS_OK);
+    EXPECT_EQ(locus_pmq_check(loaded.get()), LOCUS_OK) << locus_last_error();
 }
 
 // A file of a few records: each byte changed, each length, each of them an error that names the file, or no change.
