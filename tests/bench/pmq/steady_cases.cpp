@@ -1,6 +1,7 @@
 // thesis.table3.2.*: the steady phase of a window under several horizons; thesis.fig3.8.*: under several rates of
 // arrival, whose longest call is the removal pass of table 3.3. A time step is a second and brings one batch.
 #include "tests/bench/harness/cases.hpp"
+#include "tests/bench/harness/machine.hpp"
 #include "tests/bench/pmq/drive.hpp"
 
 #include <algorithm>
@@ -46,6 +47,7 @@ void steady_case(Row &row, std::size_t horizon, std::size_t batch) {
                  [&](const Point &record) { return record.time >= records.back().time - range; });
     const auto contestant = [&](const char *peer, Layout layout) -> Contestant {
         return {peer, [&, peer, layout](Notes &notes) {
+                    provide_memory(4 * live.size() * sizeof(Point)); // a growing array holds two
                     const auto store = make_locus<Point>(layout, range);
                     store->load(before, before.back().time);
                     const std::vector<double> pauses =
