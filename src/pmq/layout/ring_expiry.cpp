@@ -263,11 +263,14 @@ void RingLeaves::sweep(Eviction &eviction, Departures &departures) {
 // Remove everything that may go by a moment, which becomes the current one.
 void RingLeaves::sweep_all(const Moment &moment, Eviction &eviction, Departures &departures) {
     std::vector<Cut> cuts = decide(0, directory().size(), moment.cutoff, eviction, true);
-    const Change change(*this, edition_->stored <= most_short);
-    remove(cuts, departures);
-    edition().moment = moment;
-    floor_ = INT64_MIN;
-    tidy_all();
+    {
+        const Change change(*this, edition_->stored <= most_short);
+        remove(cuts, departures);
+        edition().moment = moment;
+        floor_ = INT64_MIN;
+        tidy_all();
+    }
+    slabs_.prepare();
 }
 
 void RingLeaves::erase(const Selection &selection, Departures &departures) {
@@ -296,9 +299,12 @@ void RingLeaves::erase(const Selection &selection, Departures &departures) {
     for (Cut &cut : cuts)
         if (cut.marked == now.directory[cut.node]->leaf[cut.leaf].count)
             cut.everything();
-    const Change change(*this, now.stored <= most_short);
-    remove(cuts, departures);
-    tidy_all();
+    {
+        const Change change(*this, now.stored <= most_short);
+        remove(cuts, departures);
+        tidy_all();
+    }
+    slabs_.prepare();
 }
 
 } // namespace locus::pmq

@@ -20,8 +20,8 @@ public:
     LeafMemory take(); // throws std::bad_alloc
     void give_back(LeafMemory leaf) noexcept;
 
-    // Once per batch: touch the next step of what will be needed soon; choose a slab to be vacated or unmap vacated
-    // ones.
+    // Once per batch, sweep or erasure: touch the next step of what will be needed soon; choose a slab to be vacated or
+    // unmap vacated ones.
     void prepare() noexcept;
     // The leaf lies in a slab that is being vacated: its records should move.
     bool vacating(LeafMemory leaf) const noexcept;

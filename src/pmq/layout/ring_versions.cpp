@@ -63,7 +63,7 @@ Versions::Read Versions::begin(bool is_short) noexcept {
     const std::lock_guard lock(mutex_);
     closed_ = is_short && waiting_ == 0;
     const uint64_t oldest = readers_.empty() ? current_->version : readers_.begin()->first;
-    const uint64_t until = !closed_ ? UINT64_MAX : readers_.empty() ? 0 : readers_.rbegin()->first + 1;
+    const uint64_t until = !closed_ ? current_->version + 1 : readers_.empty() ? 0 : readers_.rbegin()->first + 1;
     return {oldest, until};
 }
 

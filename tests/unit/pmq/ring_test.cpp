@@ -183,6 +183,15 @@ TEST_F(RingWindow, LateRecordsKeepTheMemorySteady) {
     EXPECT_LT(most_late, 150u);
 }
 
+// Readers do not wait for a large batch, which is written beside what they see. But what it makes and takes apart
+// itself nobody sees.
+TEST_F(Ring, ALargeBatchKeepsNothingTwice) {
+    constexpr size_t many = 400'000;
+    insert(cloud(many, 0, 10), 0);
+    compare();
+    EXPECT_LT(store->stats().bytes, 76 * many); // 40 bytes a slot, two thirds of which are full
+}
+
 TEST_F(RingWindow, MemoryOfABurstIsGivenBack) {
     for (int64_t now = 0; now < 20000; now += 50)
         insert(cloud(100, now, 10), now);
