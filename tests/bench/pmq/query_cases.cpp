@@ -82,16 +82,11 @@ void tile_case(Row &row, unsigned zoom) {
     const std::vector<uint32_t> want = scan_tile(window, tile);
     std::vector<uint32_t> bins(tile_bins);
     std::vector<Contestant> contestants;
-    const std::size_t repeats = row.quick ? 2 : 10;
     for (Filled &filled : stores) {
         contestants.push_back({filled.peer, [&](Notes &) {
-                                   const double seconds = timed([&] {
-                                       for (std::size_t i = 0; i < repeats; ++i) {
-                                           filled.store->tile(tile, bins);
-                                       }
-                                   });
+                                   const double seconds = timed_rounds([&] { filled.store->tile(tile, bins); });
                                    row.check(bins == want, filled.peer + " counts other bins than a scan");
-                                   return 1e6 * seconds / static_cast<double>(repeats);
+                                   return 1e6 * seconds;
                                }});
     }
     race(row, contestants);
