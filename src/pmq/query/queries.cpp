@@ -39,7 +39,8 @@ size_t read(const View &view, const Selection &selection, Order order, std::byte
         const Acceptance accepted(view, live, range);
         return view.scan(range.place, range.keys, live.times.from, order, [&](const Block &block) {
             if (accepted.all_of(block)) {
-                copy_all(block, size, records + found * size, found < capacity ? capacity - found : 0);
+                if (found < capacity)
+                    copy_all(block, size, records + found * size, capacity - found);
                 found += block.count;
                 return true;
             }
