@@ -25,7 +25,8 @@ public:
 
     uint64_t run() {
         descend(tile_, view_.everywhere());
-        add_keys(waiting_);
+        if (waiting_.count > 0)
+            add_keys(waiting_);
         return total_;
     }
 
