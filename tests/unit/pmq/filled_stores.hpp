@@ -3,6 +3,7 @@
 
 #include "tests/unit/pmq/tracked_store.hpp"
 
+#include "core/sphere.hpp"
 #include "core/zcurve.hpp"
 
 #include <gtest/gtest.h>
@@ -118,6 +119,42 @@ public:
         for (const locus_point32 &record : records)
             ids.push_back(unpack(&record, LOCUS_RECORD_POINT32).id);
         return ids;
+    }
+
+    // The k best items by a score, with it; those without one (negative) do not count.
+    using Ranked = std::vector<std::pair<double, uint64_t>>;
+    template <typename Score>
+    Ranked ranked_by(const locus_pmq_query &query, size_t k, Score &&score) const {
+        Ranked all;
+        for (const Item &item : items)
+            if (const double s = score(item); s >= 0 && selects(query, item))
+                all.emplace_back(s, item.id);
+        std::stable_sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+        all.resize(std::min(k, all.size()));
+        return all;
+    }
+    static Ranked ranked(std::vector<locus_point32> records, const std::vector<double> &scores, size_t count) {
+        records.resize(count);
+        const std::vector<uint64_t> ids = ids_of(records);
+        Ranked all;
+        for (size_t i = 0; i < count; ++i)
+            all.emplace_back(scores[i], ids[i]);
+        return all;
+    }
+    void expect_nearest(const Item &at, const locus_pmq_query &query, size_t k) const {
+        const Site centre(at.latitude, at.longitude);
+        const Ranked best = ranked_by(query, k, [&](const Item &item) {
+            return centre.distance_to({item.latitude, item.longitude});
+        });
+        for (const locus_pmq *pmq : stores) {
+            std::vector<locus_point32> records(k);
+            std::vector<double> distances(k);
+            size_t count = 0;
+            ASSERT_EQ(
+                locus_pmq_nearest(pmq, at.latitude, at.longitude, &query, k, records.data(), distances.data(), &count),
+                LOCUS_OK);
+            ASSERT_EQ(ranked(records, distances, count), best);
+        }
     }
 
     struct Visitor {

@@ -13,28 +13,6 @@ class Rankings : public testing::Test {
 protected:
     Rankings() : draw(21), stores(draw_items(draw, 20000)) {}
 
-    using Ranked = std::vector<std::pair<double, uint64_t>>;
-
-    // The k best items by a score, with it; those without one (negative) do not count.
-    template <typename Score>
-    Ranked wanted(const locus_pmq_query &query, size_t k, Score &&score) const {
-        Ranked all;
-        for (const Item &item : stores.items)
-            if (const double s = score(item); s >= 0 && selects(query, item))
-                all.emplace_back(s, item.id);
-        std::stable_sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-        all.resize(std::min(k, all.size()));
-        return all;
-    }
-    static Ranked ranked(std::vector<locus_point32> records, const std::vector<double> &scores, size_t count) {
-        records.resize(count);
-        const std::vector<uint64_t> ids = FilledStores::ids_of(records);
-        Ranked all;
-        for (size_t i = 0; i < count; ++i)
-            all.emplace_back(scores[i], ids[i]);
-        return all;
-    }
-
     Places draw;
     FilledStores stores;
 };
@@ -53,7 +31,7 @@ TEST_F(Rankings, TopKIsTheHeadOfASort) {
         const locus_pmq_query q = draw_times_and_filter(draw);
         const size_t k = 1 + draw.below(draw.chance(0.1) ? 30000 : 150);
         const Site centre(at.latitude, at.longitude);
-        const Ranked best = wanted(q, k, [&](const Item &item) {
+        const FilledStores::Ranked best = stores.ranked_by(q, k, [&](const Item &item) {
             const double distance = centre.distance_to({item.latitude, item.longitude});
             const auto age = static_cast<double>(filled_now - item.time);
             if (distance > score.radius || age > static_cast<double>(score.period))
@@ -67,7 +45,7 @@ TEST_F(Rankings, TopKIsTheHeadOfASort) {
             std::vector<double> scores(k);
             size_t count = 0;
             ASSERT_EQ(locus_pmq_topk(pmq, &score, &q, k, records.data(), scores.data(), &count), LOCUS_OK);
-            ASSERT_EQ(ranked(records, scores, count), best);
+            ASSERT_EQ(FilledStores::ranked(records, scores, count), best);
         }
     }
     EXPECT_GT(found, 5000u);
@@ -78,19 +56,7 @@ TEST_F(Rankings, NearestIsTheHeadOfASort) {
         const Item at = draw.place();
         const locus_pmq_query q = draw_times_and_filter(draw);
         const size_t k = 1 + draw.below(draw.chance(0.1) ? 30000 : 150);
-        const Site centre(at.latitude, at.longitude);
-        const Ranked best = wanted(q, k, [&](const Item &item) {
-            return centre.distance_to({item.latitude, item.longitude});
-        });
-        for (locus_pmq *pmq : stores.stores) {
-            std::vector<locus_point32> records(k);
-            std::vector<double> distances(k);
-            size_t count = 0;
-            ASSERT_EQ(
-                locus_pmq_nearest(pmq, at.latitude, at.longitude, &q, k, records.data(), distances.data(), &count),
-                LOCUS_OK);
-            ASSERT_EQ(ranked(records, distances, count), best);
-        }
+        ASSERT_NO_FATAL_FAILURE(stores.expect_nearest(at, q, k));
     }
 }
 

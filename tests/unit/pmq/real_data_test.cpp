@@ -1,5 +1,4 @@
 // Every query on real positions against looking at each: the places of the world, and taxis, many of which stand still.
-#include "core/sphere.hpp"
 #include "tests/unit/pmq/filled_stores.hpp"
 
 #include <locus/records.h>
@@ -143,13 +142,7 @@ TEST_P(RealData, IsRankedAndSummedUp) {
     for (int i = 0; i < 25 && !HasFailure(); ++i) {
         const locus_pmq_query q = query();
         const Item at = any();
-        const Site centre(at.latitude, at.longitude);
-        std::vector<std::pair<double, uint64_t>> near;
-        for (const Item &item : stores.items)
-            if (selects(q, item))
-                near.emplace_back(centre.distance_to({item.latitude, item.longitude}), item.id);
-        std::stable_sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-        const size_t k = 1 + draw.below(300);
+        ASSERT_NO_FATAL_FAILURE(stores.expect_nearest(at, q, 1 + draw.below(300)));
         const auto zoom = static_cast<uint32_t>(draw.below(20));
         const MapPoint point = map_point(at.latitude, at.longitude);
         const auto x = static_cast<uint32_t>(map_cell(point.x, zoom)),
@@ -162,17 +155,6 @@ TEST_P(RealData, IsRankedAndSummedUp) {
                 ++wanted[row % 256 * 256 + column % 256];
         }
         for (const locus_pmq *pmq : stores.stores) {
-            std::vector<locus_point32> records(k);
-            std::vector<double> distances(k);
-            size_t count = 0;
-            ASSERT_EQ(
-                locus_pmq_nearest(pmq, at.latitude, at.longitude, &q, k, records.data(), distances.data(), &count),
-                LOCUS_OK);
-            records.resize(count);
-            ASSERT_EQ(count, std::min(k, near.size()));
-            const std::vector<uint64_t> ids = FilledStores::ids_of(records);
-            for (size_t n = 0; n < count; ++n)
-                ASSERT_EQ(std::pair(distances[n], ids[n]), near[n]) << n;
             ASSERT_EQ(locus_pmq_tile(pmq, zoom, x, y, 8, &q, bins.data(), bins.size(), nullptr), LOCUS_OK);
             ASSERT_EQ(bins, wanted) << zoom << "/" << x << "/" << y;
         }
