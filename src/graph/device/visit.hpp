@@ -109,8 +109,8 @@ struct Visit {
     };
     struct Local {
         Word best[per_thread];
-        Word first[per_thread];
         uint32_t open[per_thread];
+        uint32_t changed; // its voxels, as bits
     };
 
     Bricks<Word> bricks;
@@ -161,6 +161,7 @@ private:
     }
 
     LOCUS_HD void load(Shared &s, unsigned thread, Local &local) const {
+        local.changed = 0;
         for (unsigned cell = thread; cell < kCells; cell += threads) {
             const CellPlace at(cell);
             const uint32_t brick =
@@ -191,8 +192,6 @@ private:
             if ((active >> voxel / kSide & 1) == 0)
                 continue;
             const unsigned cell = cell_of(voxel);
-            if (pass == 0) // in which all rows are active
-                local.first[i] = s.cells.word[cell];
             local.best[i] = bricks.open == nullptr ? smallest_offer<false>(s, cell, ~0u)
                                                    : smallest_offer<true>(s, cell, local.open[i]);
         }
@@ -249,6 +248,7 @@ private:
                     continue;
                 Cells::store(s.cells, cell, local.best[i]);
             }
+            local.changed |= 1u << i;
             atomic_or(&s.active[(pass + 1) % 3], rows_around(voxel / kSide));
         }
     }
@@ -256,11 +256,10 @@ private:
     LOCUS_HD void store(Shared &s, unsigned thread, Local &local) const {
         LOCUS_UNROLL
         for (unsigned i = 0; i < per_thread; ++i) {
-            const unsigned voxel = thread + threads * i;
-            const Word word = s.cells.word[cell_of(voxel)];
-            if (word == local.first[i])
+            if ((local.changed >> i & 1) == 0)
                 continue;
-            store_shared(&bricks.words[uint64_t{s.brick} * kVoxels + voxel], word);
+            const unsigned voxel = thread + threads * i;
+            store_shared(&bricks.words[uint64_t{s.brick} * kVoxels + voxel], s.cells.word[cell_of(voxel)]);
             atomic_or(&s.changed[voxel / (kSide * kSide)], uint64_t{1} << voxel % (kSide * kSide));
             atomic_or(&s.any, 1u);
         }
