@@ -1,5 +1,5 @@
 // The table that liblocus uses: a device, its memory and its kernels.
-#include "cuda/queue.cuh"
+#include "cuda/staging.cuh"
 #include "graph/device/transfer.hpp"
 
 #include <new>
@@ -57,6 +57,7 @@ void close(Queue *queue) {
         const OnDevice here(queue->device);
         cudaStreamSynchronize(queue->stream);
         cudaFree(queue->scratch);
+        release_staging(*queue);
         if (queue->own_stream)
             cudaStreamDestroy(queue->stream);
     }
@@ -144,17 +145,20 @@ void release(Queue *queue, void *memory) {
     cudaFree(memory);
 }
 
-int32_t upload(Queue *queue, void *to, const void *from, uint64_t bytes, Message *why) {
+int32_t upload(Queue *queue, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why) {
     const OnDevice here(queue->device);
     LOCUS_CUDA(here.error());
-    LOCUS_CUDA(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, queue->stream));
-    LOCUS_CUDA(cudaStreamSynchronize(queue->stream));
+    if (bytes >= kStagingBytes && has_staging(*queue))
+        return upload_staged(*queue, to, from, bytes, copy, why);
+    LOCUS_CUDA(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, queue->stream)); // has read `from` on return
     return LOCUS_OK;
 }
 
-int32_t download(Queue *queue, void *to, const void *from, uint64_t bytes, Message *why) {
+int32_t download(Queue *queue, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why) {
     const OnDevice here(queue->device);
     LOCUS_CUDA(here.error());
+    if (bytes >= kStagingBytes && has_staging(*queue))
+        return download_staged(*queue, to, from, bytes, copy, why);
     LOCUS_CUDA(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, queue->stream));
     LOCUS_CUDA(cudaStreamSynchronize(queue->stream));
     return LOCUS_OK;

@@ -1,4 +1,4 @@
-// What a queue of work is on a GPU: a device, a stream, and memory for CUB.
+// What a queue of work is on a GPU: a device, a stream, memory for CUB, and pinned memory for large copies.
 #pragma once
 
 #include "cuda/check.cuh"
@@ -12,6 +12,9 @@ struct Queue {
     bool own_stream = false;
     void *scratch = nullptr; // CUB's
     size_t scratch_bytes = 0;
+    unsigned char *staging = nullptr;   // two buffers, see staging.cuh,
+    cudaEvent_t staging_passed[2] = {}; // and when the GPU has passed each
+    bool staging_asked = false;
 };
 
 } // namespace locus::device

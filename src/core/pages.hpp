@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <new>
 
 #ifdef __linux__
@@ -22,6 +23,15 @@ inline void *allocate_pages(std::size_t bytes) {
     return raw;
 }
 inline void free_pages(void *raw) noexcept { ::operator delete (raw, std::align_val_t{large_page}); }
+
+// Ask for large pages for those that lie wholly in memory which was not used yet.
+inline void prefer_large_pages([[maybe_unused]] void *raw, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+    void *first = raw;
+    if (std::align(large_page, large_page, first, bytes) != nullptr)
+        madvise(first, bytes / large_page * large_page, MADV_HUGEPAGE);
+#endif
+}
 
 // For containers: large pages where their memory fills one, cache lines below.
 template <typename T>

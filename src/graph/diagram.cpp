@@ -165,9 +165,11 @@ void Diagram::run(Progress &progress, Change *change) {
             words_ = Words(); // what is left there is no result: everything changes
         report = change != nullptr ? engine_->update(problem, words_, progress, *change)
                                    : engine_->solve(problem, words_, progress);
-    } catch (const Error
-                 &) { // stopped, or a caller's weight out of range; where memory ran out, the old result is still there
+    } catch (const Error &) { // stopped, a caller's weight out of range, a device that failed
         solved_ = false;
+        throw;
+    } catch (...) { // memory ran out: the old result is still there, unless a device had failed before
+        solved_ = solved_ && !has_memory_gone(words_);
         throw;
     }
     solved_ = false;

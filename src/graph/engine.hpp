@@ -1,6 +1,7 @@
 // What every engine does: from a graph and sources, the packed word of every voxel. All engines give the same words.
 #pragma once
 
+#include "core/pages.hpp"
 #include "core/progress.hpp"
 #include "graph/graph.hpp"
 
@@ -55,6 +56,23 @@ struct Report {
 // A word per voxel, x fastest; unreached() where no source reaches within the limit, and on impassable voxels.
 using Words = std::variant<std::vector<uint32_t>, std::vector<uint64_t>>;
 
+// Memory for `voxels` words: that of `words`, which are left empty then, where it has the size.
+template <typename Word>
+std::vector<Word> memory_of(Words &words, uint64_t voxels) {
+    std::vector<Word> memory;
+    if (auto *same = std::get_if<std::vector<Word>>(&words); same != nullptr && same->size() == voxels)
+        memory.swap(*same);
+    else {
+        memory.reserve(voxels);
+        prefer_large_pages(memory.data(), voxels * sizeof(Word));
+        memory.resize(voxels);
+    }
+    return memory;
+}
+inline bool has_memory_gone(const Words &words) {
+    return std::visit([](const auto &each) { return each.empty(); }, words);
+}
+
 // The voxels whose words an update changed, and the smallest box around them; its extents are 0 where there are none.
 struct Change {
     uint64_t voxels = 0;
@@ -66,7 +84,8 @@ public:
     virtual ~Engine() = default;
     virtual uint32_t kind() const = 0; // LOCUS_ENGINE_
     virtual uint32_t backend() const { return LOCUS_BACKEND_CPU; }
-    // Whatever is thrown (out of memory, stopped, a caller's weight out of range), `words` is as before then.
+    // Whatever is thrown (out of memory, stopped, a caller's weight out of range), `words` is as before then; or empty,
+    // where a device failed while the new ones were written into their memory.
     virtual Report solve(const Problem &problem, Words &words, Progress &progress) = 0;
     // The same words, where `words` are still those of this engine's latest solve or update, of the same graph; engines
     // that can do so look only at what was edited since. The plain way: solve and compare.

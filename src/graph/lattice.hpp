@@ -71,12 +71,7 @@ public:
 
     // Copy the words back; `out` takes its memory before it changes.
     void give(Words &out) const {
-        std::vector<Word> kept;
-        if (auto *same = std::get_if<std::vector<Word>>(&out);
-            same != nullptr && same->size() == graph_.grid().voxels())
-            kept.swap(*same);
-        else
-            kept.resize(graph_.grid().voxels());
+        std::vector<Word> kept = memory_of<Word>(out, graph_.grid().voxels());
         const auto unreached = static_cast<Word>(graph_.layout().unreached());
         for_rows([&](uint64_t inner, uint64_t padded) {
             for (uint64_t x = 0; x < graph_.grid().nx(); ++x) {

@@ -226,19 +226,22 @@ void release(Queue *, void *memory) {
     std::free(raw);
 }
 
-int32_t transfer(uint64_t &counter, void *to, const void *from, uint64_t bytes, Message *why) {
+int32_t transfer(uint64_t &counter, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why) {
     int32_t status = LOCUS_OK;
     if (fails(why, status))
         return status;
-    std::memcpy(to, from, bytes);
+    if (copy != nullptr)
+        copy->run(copy->user, to, from, bytes);
+    else
+        std::memcpy(to, from, bytes);
     counter += bytes;
     return LOCUS_OK;
 }
-int32_t upload(Queue *, void *to, const void *from, uint64_t bytes, Message *why) {
-    return transfer(counters().uploaded, to, from, bytes, why);
+int32_t upload(Queue *, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why) {
+    return transfer(counters().uploaded, to, from, bytes, copy, why);
 }
-int32_t download(Queue *, void *to, const void *from, uint64_t bytes, Message *why) {
-    return transfer(counters().downloaded, to, from, bytes, why);
+int32_t download(Queue *, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why) {
+    return transfer(counters().downloaded, to, from, bytes, copy, why);
 }
 
 int32_t launch(Queue *queue, const Launch *launched, Message *why) {

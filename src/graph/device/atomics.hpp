@@ -38,6 +38,20 @@ LOCUS_HD inline T atomic_min(T *at, T value) {
 #endif
 }
 
+// Raise it.
+template <typename T>
+LOCUS_HD inline T atomic_max(T *at, T value) {
+#ifdef __CUDA_ARCH__
+    return static_cast<T>(atomicMax(native(at), static_cast<Native<T>>(value)));
+#else
+    std::atomic_ref<T> there(*at);
+    T old = there.load(std::memory_order_relaxed);
+    while (value > old && !there.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
+    }
+    return old;
+#endif
+}
+
 template <typename T>
 LOCUS_HD inline T atomic_add(T *at, T value) {
 #ifdef __CUDA_ARCH__

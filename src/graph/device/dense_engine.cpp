@@ -42,8 +42,8 @@ public:
     }
 
     void give(graph::Words &words, Report &report) {
-        std::vector<Word> fresh(problem_.graph.grid().voxels());
-        device_.download(std::span<Word>(fresh), settled_.get());
+        std::vector<Word> fresh = graph::memory_of<Word>(words, problem_.graph.grid().voxels());
+        device_.download(std::span<Word>(fresh), settled_.get(), problem_.graph.threads());
         const auto unreached = static_cast<Word>(problem_.graph.layout().unreached());
         uint64_t reached = 0;
         for (Word &word : fresh) {

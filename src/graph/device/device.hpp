@@ -2,9 +2,12 @@
 // more memory, LOCUS_E_DEVICE with the text of the driver otherwise.
 #pragma once
 
+#include "core/crew.hpp"
 #include "core/error.hpp"
 #include "graph/device/table.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
@@ -67,6 +70,34 @@ private:
     uint64_t count_ = 0;
 };
 
+// The host's part in one copy between it and a device: on several threads where it is large.
+class HostCopying {
+public:
+    HostCopying(uint32_t threads, uint64_t bytes) {
+        const uint64_t useful = std::min<uint64_t>(bytes / worth_a_thread, most_threads);
+        if (threads < 2 || useful < 2)
+            return;
+        crew_.emplace(static_cast<uint32_t>(std::min<uint64_t>(threads, useful)));
+        copy_ = {run, &*crew_};
+    }
+    // Null: one thread does.
+    const HostCopy *get() const { return crew_ ? &copy_ : nullptr; }
+
+private:
+    static constexpr uint64_t worth_a_thread = uint64_t{1} << 20, piece = uint64_t{1} << 18; // bytes
+    static constexpr uint64_t most_threads = 8;                                              // saturate the memory
+
+    static void run(void *crew, void *to, const void *from, uint64_t bytes) {
+        static_cast<Crew *>(crew)->for_each(bytes, piece, [&](uint64_t begin, uint64_t end) {
+            std::memcpy(static_cast<unsigned char *>(to) + begin, static_cast<const unsigned char *>(from) + begin,
+                        end - begin);
+        });
+    }
+
+    std::optional<Crew> crew_;
+    HostCopy copy_{};
+};
+
 class Device {
 public:
     // `stream`: the caller's; null: one of its own.
@@ -97,15 +128,24 @@ public:
         upload(memory.get(), values);
         return memory;
     }
+    // `threads`: of the host, for what is large.
     template <typename T>
-    void upload(T *to, std::span<const T> values) {
-        if (!values.empty())
-            call([&](Message *why) { return table_.upload(queue_, to, values.data(), values.size_bytes(), why); });
+    void upload(T *to, std::span<const T> values, uint32_t threads = 1) {
+        if (values.empty())
+            return;
+        const HostCopying copying(threads, values.size_bytes());
+        call([&](Message *why) {
+            return table_.upload(queue_, to, values.data(), values.size_bytes(), copying.get(), why);
+        });
     }
     template <typename T>
-    void download(std::span<T> to, const T *from) {
-        if (!to.empty())
-            call([&](Message *why) { return table_.download(queue_, to.data(), from, to.size_bytes(), why); });
+    void download(std::span<T> to, const T *from, uint32_t threads = 1) {
+        if (to.empty())
+            return;
+        const HostCopying copying(threads, to.size_bytes());
+        call([&](Message *why) {
+            return table_.download(queue_, to.data(), from, to.size_bytes(), copying.get(), why);
+        });
     }
     template <typename T>
     T download(const T *from) {

@@ -1,7 +1,6 @@
 #include "graph/device/field.hpp"
 
 #include "core/team.hpp"
-#include "graph/device/transfer.hpp"
 #include "graph/device/visit.hpp"
 #include "graph/lattice.hpp"
 
@@ -68,6 +67,7 @@ Field<Word>::Field(Device &device, const graph::Graph &graph) : device_(device),
     near_ = device.allocate<uint32_t>(count);
     touched_ = device.allocate<uint32_t>(count);
     is_touched_ = device.allocate<uint32_t>(count);
+    tallied_ = device.allocate<Tallied>(1);
 }
 
 template <typename Word>
@@ -122,9 +122,11 @@ void Field<Word>::pack(std::span<const uint32_t> list, std::vector<float> &opera
                        std::vector<uint32_t> &open) const {
     const Operands operand(graph_);
     const Layout bricks = layout();
-    operands.assign(list.size() * kVoxels, operand.impassable());
+    operands.resize(list.size() * kVoxels);
     open.assign(graph_.cuts() != nullptr ? list.size() * kVoxels : 0, 0);
     parallel_for(graph_.threads(), list.size(), 64, [&](uint64_t begin, uint64_t end) {
+        std::fill(operands.begin() + static_cast<std::ptrdiff_t>(begin * kVoxels),
+                  operands.begin() + static_cast<std::ptrdiff_t>(end * kVoxels), operand.impassable());
         for (uint64_t i = begin; i < end; ++i)
             for_voxels(graph_.grid(), bricks, list[i], [&](uint64_t voxel, uint64_t position) {
                 operands[i * kVoxels + position] = operand(voxel);
@@ -148,9 +150,9 @@ void Field<Word>::import() {
         for (size_t i = 0; i < list.size(); ++i)
             list[i] = first + static_cast<uint32_t>(i);
         pack(list, operands, open);
-        device_.upload(operands_.get() + uint64_t{first} * kVoxels, std::span<const float>(operands));
+        device_.upload(operands_.get() + uint64_t{first} * kVoxels, std::span<const float>(operands), graph_.threads());
         if (!open.empty())
-            device_.upload(open_.get() + uint64_t{first} * kVoxels, std::span<const uint32_t>(open));
+            device_.upload(open_.get() + uint64_t{first} * kVoxels, std::span<const uint32_t>(open), graph_.threads());
     }
     imported_ = graph_.version();
 }
@@ -263,22 +265,31 @@ void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
     });
 }
 
+template <typename Word>
+Tallied Field<Word>::tally() {
+    const Tallied none{};
+    device_.upload(tallied_.get(), std::span<const Tallied>(&none, 1));
+    Tally<Word> body{bricks(), 0, tallied_.get()};
+    const Launch with = launch(Kernel::tally);
+    body.blocks = std::min<uint64_t>(device_.resident(with, body), layout().count());
+    device_.launch(with, body, body.blocks);
+    return device_.download(tallied_.get());
+}
+
 // All words to dense memory, in parts that need little room on the device.
 template <typename Word>
 void Field<Word>::give(Words &words) {
     const graph::Grid &grid = graph_.grid();
-    std::vector<Word> dense(grid.voxels());
     const auto unreached = static_cast<Word>(graph_.layout().unreached());
     const uint64_t plane = grid.nx() * grid.ny();
     const uint64_t planes = std::clamp<uint64_t>((uint64_t{1} << 26) / plane, 1, grid.nz());
     const auto packed = device_.allocate<Word>(plane * planes);
+    std::vector<Word> dense = graph::memory_of<Word>(words, grid.voxels());
     for (uint64_t z = 0; z < grid.nz(); z += planes) {
         const Export<Word> body{bricks(), packed.get(), unreached, z, std::min(planes, grid.nz() - z)};
         device_.launch(launch(Kernel::export_words), body, body.count());
-        device_.download(std::span<Word>(dense).subspan(z * plane, body.count()), packed.get());
+        device_.download(std::span<Word>(dense).subspan(z * plane, body.count()), packed.get(), graph_.threads());
     }
-    reached_ =
-        static_cast<uint64_t>(std::count_if(dense.begin(), dense.end(), [&](Word word) { return word != unreached; }));
     words = std::move(dense);
 }
 
@@ -300,6 +311,7 @@ Report Field<Word>::solve(const Problem &problem, Words &words, Progress &progre
     report.relaxations = work_.passes * kVoxels * graph_.grid().connectivity();
     report.seconds_solve = watch.lap();
 
+    reached_ = tally().reached;
     give(words);
     report.clipped = reached_ < graph_.passable_voxels();
     solved_ = true;

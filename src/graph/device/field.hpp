@@ -5,6 +5,7 @@
 #include "graph/device/bricks.hpp"
 #include "graph/device/device.hpp"
 #include "graph/device/metric.hpp"
+#include "graph/device/transfer.hpp"
 #include "graph/engine.hpp"
 
 namespace locus::device {
@@ -51,6 +52,7 @@ private:
     void plant(bool record);
     void run_rounds(bool raise, bool record, Progress &progress);
     std::vector<uint32_t> edited_bricks(std::span<const graph::Source> sources) const;
+    Tallied tally();
     void give(graph::Words &words);
     graph::Change give_touched(graph::Words &words);
 
@@ -65,6 +67,7 @@ private:
     Memory<uint32_t> waiting_, near_, touched_, is_touched_;
     Memory<uint64_t> seed_address_;
     Memory<Word> seed_word_;
+    Memory<Tallied> tallied_;
 
     std::optional<uint64_t> imported_; // the graph's version when its materials were read
     bool solved_ = false;              // the words are those of sources_ at version imported_

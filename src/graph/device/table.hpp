@@ -11,7 +11,7 @@
 namespace locus::device {
 
 // Grows whenever the table, a body or the meaning of either changes between two releases.
-inline constexpr uint32_t kInterface = 1;
+inline constexpr uint32_t kInterface = 2;
 
 enum class Kernel : uint32_t {
     fill_bytes,
@@ -27,6 +27,7 @@ enum class Kernel : uint32_t {
     scatter_open,
     gather,
     export_words,
+    tally,
     // graph/device/dense.hpp
     relax,
     update,
@@ -58,6 +59,12 @@ struct Message {
 
 struct Queue; // work on a device, one after the other
 
+// How the host copies its own memory: liblocus may do it on several threads.
+struct HostCopy {
+    void (*run)(void *user, void *to, const void *from, uint64_t bytes);
+    void *user;
+};
+
 struct Table {
     uint64_t bytes; // of this struct
     uint32_t interface;
@@ -69,10 +76,10 @@ struct Table {
     int32_t (*use_stream)(Queue *queue, void *stream, Message *why);
     int32_t (*allocate)(Queue *queue, uint64_t bytes, void **memory, Message *why);
     void (*release)(Queue *queue, void *memory);
-    // The host's memory may be used again on return.
-    int32_t (*upload)(Queue *queue, void *to, const void *from, uint64_t bytes, Message *why);
+    // The host's memory may be used again on return. `copy`: null where one thread is to do.
+    int32_t (*upload)(Queue *queue, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why);
     // Waits for all that was put into the queue before.
-    int32_t (*download)(Queue *queue, void *to, const void *from, uint64_t bytes, Message *why);
+    int32_t (*download)(Queue *queue, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why);
     int32_t (*launch)(Queue *queue, const Launch *launch, Message *why);
     // How many blocks of a kernel run at the same time.
     int32_t (*resident)(Queue *queue, const Launch *launch, uint64_t *blocks, Message *why);

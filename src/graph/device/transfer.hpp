@@ -58,6 +58,60 @@ struct Export {
     }
 };
 
+// What is found in the words of bricks.
+struct Tallied {
+    uint64_t reached; // voxels,
+    uint64_t largest; // and the largest of their words
+};
+
+// Count over all bricks.
+template <typename Word>
+struct Tally {
+    static constexpr unsigned threads = 256;
+    struct Shared {
+        Tallied sum;
+    };
+    struct Local {};
+
+    Bricks<Word> bricks;
+    uint64_t blocks;  // launched
+    Tallied *tallied; // zeros before
+
+    template <typename Block>
+    LOCUS_HD void operator()(Block &block) const {
+        Shared &s = block.shared;
+        block.each([&](unsigned thread, Local &) {
+            if (thread == 0)
+                s.sum = {0, 0};
+        });
+        block.each([&](unsigned thread, Local &) {
+            Tallied own{0, 0};
+            for (uint64_t brick = block.index(); brick < bricks.layout.count(); brick += blocks)
+                for (unsigned voxel = thread; voxel < kVoxels; voxel += threads)
+                    look(bricks.words[brick * kVoxels + voxel], own);
+            add(own, &s.sum);
+        });
+        block.each([&](unsigned thread, Local &) {
+            if (thread == 0)
+                add(s.sum, tallied);
+        });
+    }
+
+private:
+    LOCUS_HD void look(Word word, Tallied &own) const {
+        if (word >= bricks.beyond)
+            return;
+        ++own.reached;
+        own.largest = word > own.largest ? word : own.largest;
+    }
+    LOCUS_HD static void add(const Tallied &part, Tallied *to) {
+        if (part.reached == 0)
+            return;
+        atomic_add(&to->reached, part.reached);
+        atomic_max(&to->largest, part.largest);
+    }
+};
+
 // Wake the bricks of the list of those that changed, with the smallest word in them and on their borders; a brick that
 // sees none waits for a neighbour.
 template <typename Word>

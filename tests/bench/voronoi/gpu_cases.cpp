@@ -26,7 +26,7 @@ void need_gpu(Row &row) {
 /// oracle.
 void solve_case(Row &row, const Volume &volume, uint32_t words, double goal_ms) {
     need_gpu(row);
-    const std::vector<Engine> engines = {{"", LOCUS_ENGINE_BRICKS, 1, words, LOCUS_BACKEND_CUDA},
+    const std::vector<Engine> engines = {{"", LOCUS_ENGINE_BRICKS, 0, words, LOCUS_BACKEND_CUDA},
                                          {"base", LOCUS_ENGINE_RELAX, 1, words, LOCUS_BACKEND_CUDA},
                                          {"compact", LOCUS_ENGINE_COMPACT, 1, words, LOCUS_BACKEND_CUDA},
                                          {"cpu", LOCUS_ENGINE_BRICKS, 0, words, LOCUS_BACKEND_CPU}};

@@ -233,6 +233,51 @@ TEST(CudaFailures, LeaveTheWordsAndTheEngineUsable) {
     EXPECT_EQ(emulated::counters().allocated, 0u);
 }
 
+// A solve writes into the memory of the words that were there, once all else has been got.
+TEST(CudaFailures, OfASolveLeaveTheWordsOrNone) {
+    const emulated::KeepSettings keep;
+    const Graph graph(editable(17, 9, 10, 32), random_materials(17 * 9 * 10, 0.3, 5, 0.1, 2).data());
+    const std::vector<Source> one = {{0, 0, 0}}, two = {{0, 0, 0}, {1000, 0, 1}};
+    for (const uint32_t kind : {LOCUS_ENGINE_BRICKS, LOCUS_ENGINE_RELAX}) {
+        bool failed = true;
+        for (int64_t calls = 0; failed; ++calls) {
+            const auto engine = device::make_engine(emulated::table(), static_cast<uint32_t>(kind), {}, nullptr);
+            Words words;
+            locus::Progress progress;
+            engine->solve({graph, one}, words, progress);
+            const std::vector<uint64_t> before = wide(words);
+            const auto *memory = std::get<std::vector<uint32_t>>(words).data();
+            emulated::settings().calls_left = calls;
+            failed = false;
+            try {
+                engine->solve({graph, two}, words, progress);
+            } catch (const locus::Error &) {
+                failed = true;
+            }
+            emulated::settings().calls_left = -1;
+            if (failed) {
+                EXPECT_TRUE(has_memory_gone(words) || wide(words) == before) << calls;
+                continue;
+            }
+            EXPECT_EQ(std::get<std::vector<uint32_t>>(words).data(), memory);
+            EXPECT_EQ(wide(words), solve(LOCUS_ENGINE_HEAP, {graph, two}));
+        }
+    }
+}
+
+TEST(CudaTransfers, LargeOnesAreCopiedBySeveralThreads) {
+    device::Device device(emulated::table());
+    for (const size_t count : {size_t{100}, (size_t{9} << 20) / 8 + 1, size_t{3} << 20}) {
+        std::vector<uint64_t> values(count), back(count);
+        for (size_t i = 0; i < count; ++i)
+            values[i] = i * 0x9E3779B97F4A7C15u;
+        const auto memory = device.allocate<uint64_t>(count);
+        device.upload(memory.get(), std::span<const uint64_t>(values), 3);
+        device.download(std::span<uint64_t>(back), memory.get(), 3);
+        EXPECT_EQ(values, back);
+    }
+}
+
 TEST(CudaFailures, OutOfMemoryIsSaid) {
     emulated::settings().memory = 100000;
     const Graph graph(editable(40, 40, 40, 32), std::vector<float>(64000, 1.0f).data());
