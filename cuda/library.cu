@@ -164,6 +164,24 @@ int32_t download(Queue *queue, void *to, const void *from, uint64_t bytes, const
     return LOCUS_OK;
 }
 
+// An address that the GPU does not know would end the process' whole context.
+int32_t writable(Queue *queue, const void *memory, Message *why) {
+    const OnDevice here(queue->device);
+    LOCUS_CUDA(here.error());
+    LOCUS_CUDA(cudaSetDevice(queue->device)); // without a context, which a new thread has none of, no memory is known
+    cudaPointerAttributes about{};
+    LOCUS_CUDA(cudaPointerGetAttributes(&about, memory));
+    const bool elsewhere = about.type == cudaMemoryTypeDevice && about.device != queue->device;
+    if (about.type != cudaMemoryTypeUnregistered && about.devicePointer != nullptr && !elsewhere)
+        return LOCUS_OK;
+    if (elsewhere)
+        std::snprintf(why->text, sizeof why->text, "%p is memory of the CUDA device %d, and the diagram is on %d",
+                      memory, about.device, queue->device);
+    else
+        std::snprintf(why->text, sizeof why->text, "%p is no memory that the GPU can write to", memory);
+    return LOCUS_E_ARGUMENT;
+}
+
 int32_t run(Queue *queue, const Launch *launch, uint64_t *resident, Message *why) {
     const OnDevice here(queue->device);
     LOCUS_CUDA(here.error());
@@ -200,9 +218,8 @@ int32_t finish(Queue *queue, Message *why) {
     return LOCUS_OK;
 }
 
-constexpr Table table{sizeof(Table), device::kInterface, LOCUS_VERSION, open,   close,
-                      use_stream,    allocate,           release,       upload, download,
-                      launch,        resident,           compact,       finish};
+constexpr Table table{sizeof(Table), device::kInterface, LOCUS_VERSION, open,   close,    use_stream, allocate, release,
+                      upload,        download,           writable,      launch, resident, compact,    finish};
 
 } // namespace
 } // namespace locus::cuda

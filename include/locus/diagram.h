@@ -52,6 +52,12 @@ typedef struct locus_diagram_options {
                      diagram included; calls still return when their result is there. It must outlive the diagram and
                      its weights, and belong to the CUDA device that is the calling thread's. Default NULL: streams of
                      the library's own */
+    uint32_t on_device; /* 1: on the CUDA backend LOCUS_ENGINE_BRICKS leaves a result in the GPU's memory, where
+                           locus_diagram_labels_on_device and its like read it; the first call that reads it on the host
+                           brings it there, and reports what the GPU fails at, losing nothing. locus_diagram_get_stats
+                           needs none of it. An update then keeps 4 bytes more per voxel there (8 with 64-bit words).
+                           The other engines and the CPU do as with 0. Default 0: results come to the host at once */
+    uint32_t reserved1; /* 0 */
 } locus_diagram_options;
 
 /* What the latest solve did. */
@@ -144,8 +150,9 @@ LOCUS_API locus_status locus_diagram_place_seeds(locus_diagram *diagram,
 /* Compute the diagram anew. `progress` may be NULL.
  * Errors: LOCUS_E_STATE (no seeds), LOCUS_E_ARGUMENT (a seed lies on a voxel that was made impassable), LOCUS_E_RANGE
  * (a distance exceeds what the graph's words hold: the text says which scale or width would do), LOCUS_E_MEMORY,
- * LOCUS_E_STOPPED. After LOCUS_E_RANGE and LOCUS_E_STOPPED the diagram is unsolved, after the others it is as before.
- * Since 0.1. */
+ * LOCUS_E_STOPPED, LOCUS_E_DEVICE. After LOCUS_E_RANGE, LOCUS_E_STOPPED and whatever a GPU fails at in the middle the
+ * diagram is unsolved, after the others it is as before; with a result that options->on_device left on the GPU it is
+ * unsolved after LOCUS_E_MEMORY too. Since 0.1. */
 LOCUS_API locus_status locus_diagram_solve(locus_diagram *diagram, locus_progress_fn progress,
                                            void *user) LOCUS_NOEXCEPT;
 
@@ -153,7 +160,8 @@ LOCUS_API locus_status locus_diagram_solve(locus_diagram *diagram, locus_progres
  * The result equals a fresh solve bit for bit. LOCUS_ENGINE_BRICKS looks only at what changes, from the edits outward;
  * the other engines solve anew and compare. Works on an unsolved diagram too, as a solve.
  * `*box` becomes the smallest box around the voxels whose label or distance changed, with extents 0 where there are
- * none, and `*voxels` their number; both may be NULL. `progress` may be NULL.
+ * none, and `*voxels` their number; both may be NULL. Where the CPU goes on for a GPU that failed with the only words
+ * from before, that is the whole grid. `progress` may be NULL.
  * Errors and the state they leave as for locus_diagram_solve. Since 0.1. */
 LOCUS_API locus_status locus_diagram_update(locus_diagram *diagram, locus_voxel_box *box, uint64_t *voxels,
                                             locus_progress_fn progress, void *user) LOCUS_NOEXCEPT;
@@ -167,6 +175,21 @@ LOCUS_API locus_status locus_diagram_distances(const locus_diagram *diagram, con
                                                float *distances, size_t capacity) LOCUS_NOEXCEPT;
 LOCUS_API locus_status locus_diagram_distances_exact(const locus_diagram *diagram, const locus_voxel_box *box,
                                                      uint64_t *distances, size_t capacity) LOCUS_NOEXCEPT;
+
+/* The same values into memory of the GPU that solved the diagram, for programs that go on there: `labels` is for
+ * uint32_t, `distances` for float and for uint64_t, with room for `capacity` elements, all of it memory that the GPU
+ * can write to (from cudaMalloc, say), each element at a multiple of its size. Where the diagram has a stream of the
+ * caller's, the call puts its work on that stream and does not wait for it; else all is written on return. The result
+ * is that of LOCUS_ENGINE_BRICKS, with options->on_device or without. Errors: LOCUS_E_STATE (unsolved, or the GPU
+ * failed since), LOCUS_E_UNSUPPORTED (solved on the CPU, or by an engine that leaves nothing on the GPU),
+ * LOCUS_E_ARGUMENT (also an address the GPU cannot write to), LOCUS_E_CAPACITY, LOCUS_E_MEMORY, LOCUS_E_DEVICE; the
+ * diagram is as before. Beside other readers, which wait for each other. Since 0.1. */
+LOCUS_API locus_status locus_diagram_labels_on_device(const locus_diagram *diagram, const locus_voxel_box *box,
+                                                      void *labels, size_t capacity) LOCUS_NOEXCEPT;
+LOCUS_API locus_status locus_diagram_distances_on_device(const locus_diagram *diagram, const locus_voxel_box *box,
+                                                         void *distances, size_t capacity) LOCUS_NOEXCEPT;
+LOCUS_API locus_status locus_diagram_distances_exact_on_device(const locus_diagram *diagram, const locus_voxel_box *box,
+                                                               void *distances, size_t capacity) LOCUS_NOEXCEPT;
 
 /* Copy the shortest path from voxel (x, y, z) to its seed, both ends included, as voxel indices into `voxels` with room
  * for `capacity`; of several shortest paths, at each voxel the neighbour with the lowest index. `*count` is the path's

@@ -96,6 +96,16 @@ public:
     void distances_exact(span<std::uint64_t> into, within box = {}, status *result = nullptr) const {
         detail::settle(locus_diagram_distances_exact(get(), box.get(), into.data(), into.size()), result);
     }
+    /* The same into memory of the GPU that solved the diagram, with room for `capacity` elements. */
+    void labels_on_device(void *into, std::size_t capacity, within box = {}, status *result = nullptr) const {
+        detail::settle(locus_diagram_labels_on_device(get(), box.get(), into, capacity), result);
+    }
+    void distances_on_device(void *into, std::size_t capacity, within box = {}, status *result = nullptr) const {
+        detail::settle(locus_diagram_distances_on_device(get(), box.get(), into, capacity), result);
+    }
+    void distances_exact_on_device(void *into, std::size_t capacity, within box = {}, status *result = nullptr) const {
+        detail::settle(locus_diagram_distances_exact_on_device(get(), box.get(), into, capacity), result);
+    }
     std::vector<std::uint32_t> labels(within box = {}, status *result = nullptr) const {
         std::vector<std::uint32_t> found(size(box));
         labels(found, box, result);

@@ -15,7 +15,7 @@ namespace {
 constexpr size_t first_options_size = 24;
 constexpr size_t first_place_size = 48;
 constexpr size_t first_stats_size = 96;
-static_assert(sizeof(locus_diagram_options) == 48, "append only");
+static_assert(sizeof(locus_diagram_options) == 56, "append only");
 static_assert(sizeof(locus_place_options) == first_place_size, "append only; then keep first_place_size a number");
 static_assert(sizeof(locus_diagram_stats) == 104, "append only");
 
@@ -26,7 +26,9 @@ locus_diagram_options defaults() {
             std::numeric_limits<double>::infinity(),
             {8, 4, 4},
             0,
-            nullptr};
+            nullptr,
+            0,
+            0};
 }
 
 locus_place_options place_defaults() {
@@ -48,6 +50,17 @@ void give(const std::vector<T> &list, T *to, const char *name, size_t capacity, 
     std::copy(list.begin(), list.end(), to);
 }
 
+// Values of type T into memory of a device.
+template <typename T>
+void write_on_device(const locus_diagram *diagram, graph::Told told, const locus_voxel_box *box, void *to,
+                     const char *name, size_t capacity) {
+    const graph::Diagram &read = of(diagram);
+    const graph::Box whole = checked_box(read.graph().grid(), box, capacity);
+    require(to != nullptr, name, " is NULL");
+    require(reinterpret_cast<uintptr_t>(to) % sizeof(T) == 0, name, " is ", to, ", not a multiple of ", sizeof(T));
+    read.write_on_device(told, whole, to);
+}
+
 } // namespace
 
 locus_status locus_diagram_options_init(locus_diagram_options *options, size_t size) noexcept {
@@ -65,6 +78,7 @@ locus_status locus_diagram_create(locus_graph *graph, const locus_diagram_option
         *diagram = nullptr;
         const locus_diagram_options whole = read_options(options, defaults(), first_options_size);
         require(whole.reserved0 == 0, "options->reserved0 is ", whole.reserved0, ", not 0");
+        require(whole.reserved1 == 0, "options->reserved1 is ", whole.reserved1, ", not 0");
         *diagram = new locus_diagram{std::make_shared<graph::Diagram>(need(graph, "graph").graph, whole)};
     });
 }
@@ -153,6 +167,26 @@ locus_status locus_diagram_distances_exact(const locus_diagram *diagram, const l
     return boundary(__func__, [&] {
         const graph::Diagram &read = of(diagram);
         read.distances_exact(checked_box(read.graph().grid(), box, capacity), &need(distances, "distances"));
+    });
+}
+
+locus_status locus_diagram_labels_on_device(const locus_diagram *diagram, const locus_voxel_box *box, void *labels,
+                                            size_t capacity) noexcept {
+    return boundary(__func__,
+                    [&] { write_on_device<uint32_t>(diagram, graph::Told::ids, box, labels, "labels", capacity); });
+}
+
+locus_status locus_diagram_distances_on_device(const locus_diagram *diagram, const locus_voxel_box *box,
+                                               void *distances, size_t capacity) noexcept {
+    return boundary(__func__, [&] {
+        write_on_device<float>(diagram, graph::Told::distances, box, distances, "distances", capacity);
+    });
+}
+
+locus_status locus_diagram_distances_exact_on_device(const locus_diagram *diagram, const locus_voxel_box *box,
+                                                     void *distances, size_t capacity) noexcept {
+    return boundary(__func__, [&] {
+        write_on_device<uint64_t>(diagram, graph::Told::exact_distances, box, distances, "distances", capacity);
     });
 }
 

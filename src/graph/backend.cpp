@@ -28,9 +28,19 @@ public:
     Report solve(const Problem &problem, Words &words, Progress &progress) override {
         return attempt(problem.graph, [&] { return engine_->solve(problem, words, progress); });
     }
+    // Where the GPU takes the only words with it that what changed could be told from, all counts as changed.
     Report update(const Problem &problem, Words &words, Progress &progress, Change &change) override {
-        return attempt(problem.graph, [&] { return engine_->update(problem, words, progress, change); });
+        const bool alone = engine_->backend() == LOCUS_BACKEND_CUDA && kept_ && !problem.anew;
+        Report report = attempt(problem.graph, [&] { return engine_->update(problem, words, progress, change); });
+        if (alone && engine_->backend() == LOCUS_BACKEND_CPU)
+            change = {problem.graph.grid().voxels(), problem.graph.grid().whole()};
+        return report;
     }
+    void fetch(Words &words) override {
+        engine_->fetch(words);
+        kept_ = false;
+    }
+    void write(const Reading &reading, void *to) override { engine_->write(reading, to); }
 
 private:
     template <typename Run>
@@ -38,7 +48,9 @@ private:
         if (engine_->backend() == LOCUS_BACKEND_CPU)
             return run();
         try {
-            return run();
+            Report report = run();
+            kept_ = report.kept.has_value();
+            return report;
         } catch (const Error &error) {
             if (!device::is_devices_own(error))
                 throw;
@@ -49,6 +61,7 @@ private:
     }
 
     std::unique_ptr<Engine> engine_;
+    bool kept_ = false; // the words of the latest result are nowhere else
 };
 
 } // namespace
@@ -57,7 +70,8 @@ std::unique_ptr<Engine> make_engine(const Graph &graph, const locus_diagram_opti
     if (graph.backend() != LOCUS_BACKEND_CUDA || !on_device(options.engine))
         return make_engine(options.engine);
     const device::Grain grain = {options.grain[0], options.grain[1], options.grain[2]};
-    auto engine = device::make_engine(*device::find().table, options.engine, grain, options.stream);
+    auto engine =
+        device::make_engine(*device::find().table, options.engine, grain, options.stream, options.on_device != 0);
     if (graph.backend_forced())
         return engine;
     return std::make_unique<EngineWithSpare>(std::move(engine));

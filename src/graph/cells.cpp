@@ -8,7 +8,7 @@ namespace locus::graph {
 
 // Paths and edges between cells follow the graph's edges: they must be those of the solve.
 void Diagram::check_unchanged() const {
-    words();
+    check_solved();
     if (solved_version_ != graph_->version())
         fail(LOCUS_E_STATE, "the graph was edited after the diagram was solved");
 }
@@ -19,8 +19,9 @@ std::vector<uint64_t> Diagram::path(uint64_t x, uint64_t y, uint64_t z) const {
     require(grid.holds(x, y, z), "(", x, ", ", y, ", ", z, ") lies outside the grid of ", grid.nx(), " x ", grid.ny(),
             " x ", grid.nz(), " voxels");
     const WordLayout &layout = graph_->layout();
+    const Words &words = this->words();
     const auto word_of = [&](uint64_t voxel) {
-        return std::visit([&](const auto &each) { return uint64_t{each[voxel]}; }, words_);
+        return std::visit([&](const auto &each) { return uint64_t{each[voxel]}; }, words);
     };
     std::vector<uint64_t> path;
     uint64_t voxel = grid.index(x, y, z);
@@ -54,7 +55,7 @@ std::vector<uint64_t> Diagram::path(uint64_t x, uint64_t y, uint64_t z) const {
 }
 
 std::vector<uint64_t> Diagram::cell_sizes() const {
-    words();
+    check_solved();
     if (seeds_changed_)
         fail(LOCUS_E_STATE, "the seeds were changed after the diagram was solved");
     const WordLayout &layout = graph_->layout();
@@ -65,7 +66,7 @@ std::vector<uint64_t> Diagram::cell_sizes() const {
                 if (layout.reached(word))
                     ++sizes[position_of_slot_[layout.label(word)]];
         },
-        words_);
+        words());
     return sizes;
 }
 
@@ -93,7 +94,7 @@ std::vector<locus_cell_pair> Diagram::cell_pairs() const {
             }
         });
     };
-    std::visit(count, words_);
+    std::visit(count, words());
     std::vector<std::pair<uint64_t, uint64_t>> sorted(edges.begin(), edges.end());
     std::sort(sorted.begin(), sorted.end());
     std::vector<locus_cell_pair> pairs;
@@ -107,17 +108,23 @@ locus_diagram_stats Diagram::stats() const {
     locus_diagram_stats stats{};
     stats.struct_size = sizeof stats;
     const WordLayout &layout = graph_->layout();
-    std::visit(
-        [&](const auto &each) {
-            for (const auto word : each) {
-                if (!layout.reached(word))
-                    continue;
-                ++stats.reached;
-                stats.max_exact = std::max(stats.max_exact, layout.distance(word));
-            }
-            stats.bytes = each.capacity() * sizeof each[0];
-        },
-        words());
+    check_solved();
+    if (report_.kept) {
+        stats.reached = report_.kept->reached;
+        stats.max_exact = report_.kept->max_exact;
+    } else {
+        std::visit(
+            [&](const auto &each) {
+                for (const auto word : each) {
+                    if (!layout.reached(word))
+                        continue;
+                    ++stats.reached;
+                    stats.max_exact = std::max(stats.max_exact, layout.distance(word));
+                }
+            },
+            words());
+    }
+    stats.bytes = words_bytes();
     stats.seeds = solved_seeds_.size();
     stats.relaxations = report_.relaxations;
     stats.iterations = report_.iterations;
@@ -133,8 +140,13 @@ locus_diagram_stats Diagram::stats() const {
     return stats;
 }
 
+uint64_t Diagram::words_bytes() const {
+    const std::lock_guard lock(reading_);
+    return std::visit([](const auto &each) { return each.capacity() * sizeof each[0]; }, words_);
+}
+
 const std::vector<uint64_t> &Diagram::trace() const {
-    words();
+    check_solved();
     if (options_.record_trace == 0)
         fail(LOCUS_E_STATE, "no trace was recorded: the diagram was made without options->record_trace");
     if (report_.trace.empty() && report_.iterations > 0)

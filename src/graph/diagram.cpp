@@ -18,6 +18,7 @@ Diagram::Diagram(std::shared_ptr<const Graph> graph, const locus_diagram_options
         require(options.grain[axis] >= 1 && options.grain[axis] <= 1024, "options->grain[", axis, "] is ",
                 options.grain[axis], ", outside 1..1024");
     require(options.record_trace <= 1, "options->record_trace is ", options.record_trace, ", not 0 or 1");
+    require(options.on_device <= 1, "options->on_device is ", options.on_device, ", not 0 or 1");
 }
 
 uint64_t Diagram::checked_voxel(uint64_t x, uint64_t y, uint64_t z, const std::string &name) const {
@@ -158,7 +159,7 @@ void Diagram::run(Progress &progress, Change *change) {
         positions[seed.slot] = static_cast<uint32_t>(i);
     }
     std::vector<Seed> seeds = seeds_;
-    const Problem problem{*graph_, sources, cutoff(), options_.record_trace != 0};
+    const Problem problem{*graph_, sources, cutoff(), options_.record_trace != 0, !solved_};
     Report report;
     try {
         if (change != nullptr && !solved_)
@@ -168,11 +169,14 @@ void Diagram::run(Progress &progress, Change *change) {
     } catch (const Error &) { // stopped, a caller's weight out of range, a device that failed
         solved_ = false;
         throw;
-    } catch (...) { // memory ran out: the old result is still there, unless a device had failed before
-        solved_ = solved_ && !has_memory_gone(words_);
+    } catch (...) { // memory ran out: the old result is still there, unless a device had it or had failed before
+        solved_ = solved_ && !report_.kept && !has_memory_gone(words_);
         throw;
     }
     solved_ = false;
+    fetched_ = !report.kept;
+    if (report.clipped && problem.may_overflow())
+        fetch();
     check_overflow(problem, words_, report);
     progress.report(1);
     report_ = std::move(report);
@@ -183,10 +187,23 @@ void Diagram::run(Progress &progress, Change *change) {
     solved_ = true;
 }
 
-const Words &Diagram::words() const {
+void Diagram::check_solved() const {
     if (!solved_)
         fail(LOCUS_E_STATE, "the diagram is not solved");
+}
+
+const Words &Diagram::words() const {
+    check_solved();
+    fetch();
     return words_;
+}
+
+void Diagram::fetch() const {
+    const std::lock_guard lock(reading_);
+    if (fetched_)
+        return;
+    engine_->fetch(words_);
+    fetched_ = true;
 }
 
 void Diagram::labels(const Box &box, uint32_t *labels) const {
@@ -226,6 +243,16 @@ void Diagram::distances_exact(const Box &box, uint64_t *distances) const {
             });
         },
         words());
+}
+
+void Diagram::write_on_device(Told told, const Box &box, void *to) const {
+    check_solved();
+    std::vector<uint32_t> ids;
+    if (told == Told::ids)
+        for (const uint32_t position : position_of_slot_)
+            ids.push_back(position < solved_seeds_.size() ? solved_seeds_[position].id : LOCUS_NO_SEED);
+    const std::lock_guard lock(reading_);
+    engine_->write({told, box, ids, graph_->scale()}, to);
 }
 
 } // namespace locus::graph

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -44,6 +45,7 @@ public:
 
     // The result of the latest solve; all throw LOCUS_E_STATE where there is none.
     const Words &words() const;
+    void check_solved() const;
     // Throws LOCUS_E_STATE also where the graph was edited since.
     void check_unchanged() const;
     // The seeds of that solve, by slot; their place in the words' labels is `slot`.
@@ -55,6 +57,8 @@ public:
     void labels(const Box &box, uint32_t *labels) const;
     void distances(const Box &box, float *distances) const;
     void distances_exact(const Box &box, uint64_t *distances) const;
+    // The same into memory of the device that solved the diagram.
+    void write_on_device(Told told, const Box &box, void *to) const;
     std::vector<uint64_t> path(uint64_t x, uint64_t y, uint64_t z) const;
     std::vector<uint64_t> cell_sizes() const;
     std::vector<locus_cell_pair> cell_pairs() const;
@@ -68,6 +72,8 @@ private:
     uint64_t cutoff() const;
     void renumber();
     void run(Progress &progress, Change *change);
+    void fetch() const;
+    uint64_t words_bytes() const;
 
     std::shared_ptr<const Graph> graph_;
     locus_diagram_options options_;
@@ -78,7 +84,9 @@ private:
     bool seeds_changed_ = false; // since the latest solve
 
     bool solved_ = false;
-    Words words_;
+    mutable std::mutex reading_; // readers that come by the engine take turns
+    mutable Words words_;
+    mutable bool fetched_ = true; // else only the engine's device has the result's
     Report report_;
     uint64_t solved_version_ = 0; // of the graph
     std::vector<Seed> solved_seeds_;

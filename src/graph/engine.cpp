@@ -50,23 +50,19 @@ uint64_t next_distance_of(const Graph &graph, const std::vector<Word> &words) {
 
 template <typename Word>
 Change difference_of(const Graph &graph, const std::vector<Word> &before, const std::vector<Word> &after) {
-    Change change;
+    uint64_t changed = 0;
     std::array<uint64_t, 3> first = graph.grid().dims(), last{};
     for (uint64_t v = 0; v < after.size(); ++v) {
         if (after[v] == (before.empty() ? static_cast<Word>(graph.layout().unreached()) : before[v]))
             continue;
-        ++change.voxels;
+        ++changed;
         const auto place = graph.grid().place(v);
         for (size_t axis = 0; axis < 3; ++axis) {
             first[axis] = std::min(first[axis], place[axis]);
             last[axis] = std::max(last[axis], place[axis]);
         }
     }
-    for (size_t axis = 0; axis < 3 && change.voxels > 0; ++axis) {
-        change.box.origin[axis] = first[axis];
-        change.box.extent[axis] = last[axis] - first[axis] + 1;
-    }
-    return change;
+    return change_between(changed, first, last);
 }
 
 Change difference(const Graph &graph, const Words &before, const Words &after) {
@@ -87,6 +83,12 @@ Report Engine::update(const Problem &problem, Words &words, Progress &progress, 
     change = difference(problem.graph, words, fresh);
     words = std::move(fresh);
     return report;
+}
+
+void Engine::write(const Reading &, void *) {
+    fail(LOCUS_E_UNSUPPORTED, "the diagram was solved ",
+         backend() == LOCUS_BACKEND_CPU ? "on the CPU" : "by an engine that leaves nothing on the GPU",
+         ": its result is in the host's memory alone");
 }
 
 uint64_t next_distance(const Graph &graph, const Words &words) {

@@ -4,12 +4,14 @@
 #include "core/pages.hpp"
 #include "core/progress.hpp"
 #include "graph/graph.hpp"
+#include "graph/reading.hpp"
 
 #include <locus/diagram.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -29,6 +31,7 @@ struct Problem {
     std::span<const Source> sources;
     uint64_t cutoff = UINT64_MAX; // in steps: voxels farther than this stay unreached; may exceed what the words hold
     bool trace = false;
+    bool anew = false; // an update: there is no result before it, all that is reached has changed
 
     // The largest distance that is kept.
     uint64_t limit() const { return std::min(cutoff, graph.layout().max_exact()); }
@@ -41,6 +44,12 @@ struct Problem {
     }
 };
 
+// What is known of words that stayed on an engine's device.
+struct Kept {
+    uint64_t reached;   // voxels
+    uint64_t max_exact; // the largest of their distances
+};
+
 // What a solve did.
 struct Report {
     uint64_t relaxations = 0;
@@ -50,6 +59,7 @@ struct Report {
     double seconds_export = 0;
     uint32_t threads = 1;
     bool clipped = false;        // some path was longer than limit(); may be true without need
+    std::optional<Kept> kept;    // the words are on the engine's device alone, what stands in `words` is no result
     std::vector<uint64_t> trace; // active voxels per iteration, where Problem::trace asks and the engine has iterations
 };
 
@@ -79,6 +89,17 @@ struct Change {
     Box box{};
 };
 
+// Of so many voxels, the lowest and highest places of which are `first` and `last` along each axis.
+template <typename Place>
+Change change_between(uint64_t voxels, const Place &first, const Place &last) {
+    Change change{voxels, {}};
+    for (size_t axis = 0; axis < 3 && voxels > 0; ++axis) {
+        change.box.origin[axis] = first[axis];
+        change.box.extent[axis] = last[axis] - first[axis] + 1;
+    }
+    return change;
+}
+
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -90,6 +111,12 @@ public:
     // The same words, where `words` are still those of this engine's latest solve or update, of the same graph; engines
     // that can do so look only at what was edited since. The plain way: solve and compare.
     virtual Report update(const Problem &problem, Words &words, Progress &progress, Change &change);
+    // The words of the latest solve or update that stayed on the device, for as often as they are asked for: a failure
+    // loses nothing.
+    virtual void fetch(Words &) {}
+    // Write what is asked into memory of the device that holds the words of the latest solve or update, and wait for it
+    // unless the stream is the caller's. Throws where there is no such device.
+    virtual void write(const Reading &reading, void *to);
     // Memory kept from one call to the next.
     virtual size_t bytes() const { return 0; }
 };

@@ -232,7 +232,9 @@ void Diagram::place_seeds(const locus_place_options &options) {
     Progress progress(options.progress, options.progress_user);
     const double parts = static_cast<double>(options.count) + static_cast<double>(options.lloyd_iterations);
     sample(*metric, placed, options.count, [&](uint64_t done) { progress.report(static_cast<double>(done) / parts); });
-    const auto engine = make_engine(*metric, options_);
+    locus_diagram_options on_host = options_;
+    on_host.on_device = 0; // every round looks at the words
+    const auto engine = make_engine(*metric, on_host);
     Words words;
     size_t moved = placed.size();
     for (uint32_t round = 0; round < options.lloyd_iterations && !placed.empty(); ++round) {

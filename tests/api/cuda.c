@@ -1,12 +1,14 @@
 /* The CUDA backend through the C interface: every form of the solver, updates and Sibson's weights against the CPU's.
  * Without a GPU it tells why, and forcing the backend must say the same.
  * cuda [rounds [words]]: how many random graphs are compared; `words` must stand in the reason why there is no GPU;
- * "GPU" asks for one, "stream" for one that works on a caller's stream alone, and "fails" for one that fails before a
- * diagram is solved. */
+ * "GPU" asks for one, "stream" for one that works on a caller's stream alone, "fails" for one that fails before a
+ * diagram is solved, and "keeps" for one that fails while results are on it. */
 #include "check.h"
+#include "device_memory.h"
 
 #include <locus/locus.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,7 +77,9 @@ static void make(pair *both, uint32_t engine) {
     }
     WORKS(locus_diagram_options_init(&drawing, sizeof drawing));
     CHECK(drawing.grain[0] == 8 && drawing.grain[1] == 4 && drawing.grain[2] == 4 && drawing.stream == NULL);
+    CHECK(drawing.on_device == 0);
     drawing.stream = callers_stream;
+    drawing.on_device = draw(2);
     if (draw(3) == 0)
         drawing.max_distance = 30;
     for (k = 0; k < 2; ++k) {
@@ -99,7 +103,6 @@ static void end(pair *both) {
 static void expect_same(const pair *both) {
     uint64_t *distance[2];
     uint32_t *label[2];
-    locus_diagram_stats stats;
     size_t k;
     for (k = 0; k < 2; ++k) {
         distance[k] = malloc(both->voxels * sizeof **distance);
@@ -115,11 +118,120 @@ static void expect_same(const pair *both) {
         free(distance[k]);
         free(label[k]);
     }
-    stats.struct_size = sizeof stats;
-    WORKS(locus_diagram_get_stats(both->diagram[1], &stats));
-    CHECK(stats.backend == LOCUS_BACKEND_CUDA);
-    WORKS(locus_diagram_get_stats(both->diagram[0], &stats));
-    CHECK(stats.backend == LOCUS_BACKEND_CPU);
+}
+
+static void expect_same_stats(const pair *both) {
+    locus_diagram_stats stats[2];
+    size_t k;
+    for (k = 0; k < 2; ++k) {
+        stats[k].struct_size = sizeof stats[k];
+        WORKS(locus_diagram_get_stats(both->diagram[k], &stats[k]));
+    }
+    CHECK(stats[0].backend == LOCUS_BACKEND_CPU && stats[1].backend == LOCUS_BACKEND_CUDA);
+    CHECK(stats[0].reached == stats[1].reached && stats[0].max_exact == stats[1].max_exact);
+    CHECK(stats[0].max_distance == stats[1].max_distance);
+}
+
+typedef locus_status (*host_read)(const locus_diagram *, const locus_voxel_box *, void *, size_t);
+static locus_status host_labels(const locus_diagram *diagram, const locus_voxel_box *box, void *to, size_t room) {
+    return locus_diagram_labels(diagram, box, to, room);
+}
+static locus_status host_distances(const locus_diagram *diagram, const locus_voxel_box *box, void *to, size_t room) {
+    return locus_diagram_distances(diagram, box, to, room);
+}
+static locus_status host_exact(const locus_diagram *diagram, const locus_voxel_box *box, void *to, size_t room) {
+    return locus_diagram_distances_exact(diagram, box, to, room);
+}
+static const struct {
+    host_read host, device;
+    size_t bytes;
+} reads[3] = {{host_labels, locus_diagram_labels_on_device, sizeof(uint32_t)},
+              {host_distances, locus_diagram_distances_on_device, sizeof(float)},
+              {host_exact, locus_diagram_distances_exact_on_device, sizeof(uint64_t)}};
+
+/* The result of a random box, or of the whole grid, in the device's memory. */
+static void expect_same_on_device(const pair *both, uint32_t engine) {
+    const size_t kind = draw(3);
+    const int whole = draw(2) == 0;
+    locus_voxel_box box;
+    size_t voxels = 1, axis;
+    void *memory;
+    char *found, *expected;
+    for (axis = 0; axis < 3; ++axis) {
+        box.origin[axis] = whole ? 0 : draw((uint32_t)both->dims[axis]);
+        box.extent[axis] = whole ? both->dims[axis] : 1 + draw((uint32_t)(both->dims[axis] - box.origin[axis]));
+        voxels *= (size_t)box.extent[axis];
+    }
+    memory = device_memory(voxels * reads[kind].bytes);
+    if (engine == LOCUS_ENGINE_RELAX || engine == LOCUS_ENGINE_COMPACT) {
+        CHECK(reads[kind].device(both->diagram[1], &box, memory, voxels) == LOCUS_E_UNSUPPORTED);
+        CHECK(strstr(locus_last_error(), "leaves nothing on the GPU") != NULL);
+        device_free(memory);
+        return;
+    }
+    found = malloc(voxels * reads[kind].bytes);
+    expected = malloc(voxels * reads[kind].bytes);
+    if (found == NULL || expected == NULL)
+        exit(2);
+    WORKS(reads[kind].host(both->diagram[0], &box, expected, voxels));
+    WORKS(reads[kind].device(both->diagram[1], whole ? NULL : &box, memory, voxels));
+    from_device(found, memory, voxels * reads[kind].bytes);
+    CHECK(memcmp(found, expected, voxels * reads[kind].bytes) == 0);
+    free(found);
+    free(expected);
+    device_free(memory);
+}
+
+/* Several threads that are the first ones to read a result on the host, or beside it on the device. */
+typedef struct reader {
+    const pair *both;
+    const uint32_t *expected;
+    void *memory;
+    int wrong;
+} reader;
+static void *read_labels(void *user) {
+    reader *const own = user;
+    uint32_t *const labels = malloc(own->both->voxels * sizeof *labels);
+    locus_status status;
+    if (labels == NULL)
+        exit(2);
+    if (own->memory != NULL)
+        status = locus_diagram_labels_on_device(own->both->diagram[1], NULL, own->memory, own->both->voxels);
+    else
+        status = locus_diagram_labels(own->both->diagram[1], NULL, labels, own->both->voxels);
+    own->wrong = status != LOCUS_OK ||
+                 (own->memory == NULL && memcmp(labels, own->expected, own->both->voxels * sizeof *labels) != 0);
+    if (status != LOCUS_OK)
+        printf("a reader: %s\n", locus_last_error());
+    free(labels);
+    return NULL;
+}
+static void expect_same_by_threads(const pair *both, uint32_t engine) {
+    enum { READERS = 4 };
+    const int kept = engine == LOCUS_ENGINE_AUTO || engine == LOCUS_ENGINE_BRICKS;
+    reader readers[READERS];
+    pthread_t threads[READERS];
+    uint32_t *const expected = malloc(both->voxels * sizeof *expected);
+    int i;
+    if (expected == NULL)
+        exit(2);
+    WORKS(locus_diagram_labels(both->diagram[0], NULL, expected, both->voxels));
+    for (i = 0; i < READERS; ++i) {
+        reader one = {NULL, NULL, NULL, 1};
+        one.both = both;
+        one.expected = expected;
+        one.memory = i == 0 && kept ? device_memory(both->voxels * sizeof *expected) : NULL;
+        readers[i] = one;
+        if (pthread_create(&threads[i], NULL, read_labels, &readers[i]) != 0)
+            exit(2);
+    }
+    for (i = 0; i < READERS; ++i) {
+        pthread_join(threads[i], NULL);
+        CHECK(!readers[i].wrong);
+    }
+    if (readers[0].memory != NULL)
+        device_free(readers[0].memory);
+    free(expected);
 }
 
 /* The same edits of both graphs. */
@@ -211,6 +323,9 @@ static void compare(int rounds) {
         make(&both, engines[round % 4]);
         for (i = 0; i < 2; ++i)
             WORKS(locus_diagram_solve(both.diagram[i], NULL, NULL));
+        expect_same_on_device(&both, engines[round % 4]);
+        expect_same_stats(&both);
+        expect_same_by_threads(&both, engines[round % 4]);
         expect_same(&both);
         if (round % 3 == 0)
             compare_weights(&both);
@@ -221,7 +336,10 @@ static void compare(int rounds) {
             WORKS(locus_diagram_update(both.diagram[0], &box[0], &changed[0], NULL, NULL));
             WORKS(locus_diagram_update(both.diagram[1], &box[1], &changed[1], NULL, NULL));
             CHECK(changed[0] == changed[1] && memcmp(&box[0], &box[1], sizeof box[0]) == 0);
-            expect_same(&both);
+            expect_same_on_device(&both, engines[round % 4]);
+            if (i % 2 == 0) /* else only the device has looked at it */
+                expect_same(&both);
+            expect_same_stats(&both);
         }
         end(&both);
         if (check_failures > 0) {
@@ -232,8 +350,8 @@ static void compare(int rounds) {
     printf("%d random graphs, the same on the GPU and the CPU\n", rounds);
 }
 
-/* The graph of one box of `voxels` * 1 * 1, automatic backend. */
-static locus_graph *automatic_graph(uint64_t voxels) {
+/* A graph of so many voxels, `side` of them along y and z, automatic backend. */
+static locus_graph *automatic_graph(uint64_t voxels, uint64_t side) {
     locus_graph_options options;
     locus_graph *graph = NULL;
     float *material = malloc(voxels * sizeof *material);
@@ -243,8 +361,8 @@ static locus_graph *automatic_graph(uint64_t voxels) {
     for (i = 0; i < voxels; ++i)
         material[i] = (float)(1 + i % 3);
     WORKS(locus_graph_options_init(&options, sizeof options));
-    options.dims[0] = voxels / 4;
-    options.dims[1] = options.dims[2] = 2;
+    options.dims[0] = voxels / (side * side);
+    options.dims[1] = options.dims[2] = side;
     options.log = log_line;
     WORKS(locus_graph_create(&options, material, &graph));
     free(material);
@@ -260,7 +378,7 @@ static uint32_t backend_of(const locus_graph *graph) {
 
 /* A GPU that fails in the middle: the CPU goes on, and says so once. */
 static void falls_back(void) {
-    locus_graph *graph = automatic_graph(65536);
+    locus_graph *graph = automatic_graph(65536, 2);
     locus_diagram *diagram = NULL;
     locus_diagram_stats stats;
     locus_weights *weights = NULL;
@@ -284,14 +402,103 @@ static void falls_back(void) {
     locus_graph_destroy(graph);
 }
 
+/* A GPU that fails while results are on it: what it takes with it is said, and nothing else is ever read. */
+static void keeps(void) {
+    const locus_seed seeds[2] = {{1, 1, 1, 0.0, 6, 0}, {50, 20, 20, 0.0, 7, 0}};
+    const locus_voxel_box box = {{40, 10, 10}, {3, 2, 1}};
+    enum { VOXELS = 65536, SIDE = 32 };
+    static uint32_t labels[2][VOXELS], memory[VOXELS];
+    locus_graph *graph[2];
+    locus_diagram *diagram[2];
+    locus_diagram_options options;
+    locus_diagram_stats stats;
+    locus_voxel_box changed[2];
+    uint64_t voxels[2];
+    int k, i;
+    WORKS(locus_diagram_options_init(&options, sizeof options));
+    for (k = 0; k < 2; ++k) {
+        graph[k] = automatic_graph(VOXELS, SIDE);
+        options.engine = k == 0 ? LOCUS_ENGINE_HEAP : LOCUS_ENGINE_AUTO; /* the heap is the CPU's */
+        options.on_device = 1;
+        WORKS(locus_diagram_create(graph[k], &options, &diagram[k]));
+        WORKS(locus_diagram_add_seeds(diagram[k], seeds, 2));
+        WORKS(locus_diagram_solve(diagram[k], NULL, NULL));
+    }
+    for (i = 0; i < 3; ++i) {
+        locus_status status = locus_diagram_labels(diagram[1], NULL, labels[1], VOXELS);
+        WORKS(locus_diagram_labels(diagram[0], NULL, labels[0], VOXELS));
+        if (status != LOCUS_OK) {
+            printf("step %d: the GPU does not give its result\n", i);
+            REFUSES(locus_diagram_labels(diagram[1], NULL, labels[1], VOXELS), LOCUS_E_DEVICE, "told to fail");
+            REFUSES(locus_diagram_labels_on_device(diagram[1], NULL, memory, VOXELS), LOCUS_E_DEVICE, "told to fail");
+            WORKS(locus_diagram_get_stats(diagram[1], (stats.struct_size = sizeof stats, &stats)));
+            CHECK(stats.backend == LOCUS_BACKEND_CUDA && stats.reached == VOXELS - (i == 1 ? 6 : 0));
+        } else {
+            CHECK(memcmp(labels[0], labels[1], sizeof labels[0]) == 0);
+            status = locus_diagram_labels_on_device(diagram[1], NULL, memory, VOXELS);
+            if (status == LOCUS_OK)
+                CHECK(memcmp(labels[0], memory, sizeof labels[0]) == 0);
+            else
+                CHECK(status == LOCUS_E_DEVICE || status == LOCUS_E_UNSUPPORTED);
+        }
+        for (k = 0; k < 2; ++k) {
+            WORKS(locus_graph_fill_box(graph[k], &box, i % 2 == 0 ? NAN : 2));
+            WORKS(locus_diagram_update(diagram[k], &changed[k], &voxels[k], NULL, NULL));
+        }
+        stats.struct_size = sizeof stats;
+        WORKS(locus_diagram_get_stats(diagram[1], &stats));
+        if (stats.backend == LOCUS_BACKEND_CPU && voxels[1] == VOXELS) {
+            printf("step %d: all changed\n", i);
+            CHECK(changed[1].extent[0] == 64 && changed[1].extent[1] == SIDE && changed[1].extent[2] == SIDE);
+        } else {
+            CHECK(voxels[0] == voxels[1] && memcmp(&changed[0], &changed[1], sizeof changed[0]) == 0);
+        }
+    }
+    for (k = 0; k < 2; ++k) {
+        locus_diagram_destroy(diagram[k]);
+        locus_graph_destroy(graph[k]);
+    }
+}
+
+/* Calls for results in the device's memory that are refused. */
+static void refused(void) {
+    const locus_seed seed = {1, 1, 1, 0.0, 6, 0};
+    const locus_voxel_box row = {{0, 0, 0}, {8, 1, 1}}, outside = {{0, 1, 0}, {1, 2, 1}};
+    locus_graph *const graph = automatic_graph(65536, 2);
+    locus_diagram_options options;
+    locus_diagram *diagram = NULL;
+    char *const memory = device_memory(8 * sizeof(uint64_t));
+    WORKS(locus_diagram_options_init(&options, sizeof options));
+    options.stream = callers_stream;
+    WORKS(locus_diagram_create(graph, &options, &diagram));
+    WORKS(locus_diagram_add_seeds(diagram, &seed, 1));
+    REFUSES(locus_diagram_labels_on_device(diagram, &row, memory, 8), LOCUS_E_STATE, "not solved");
+    WORKS(locus_diagram_solve(diagram, NULL, NULL));
+    WORKS(locus_diagram_labels_on_device(diagram, &row, memory, 8));
+    REFUSES(locus_diagram_labels_on_device(diagram, &row, NULL, 8), LOCUS_E_ARGUMENT, "labels is NULL");
+    REFUSES(locus_diagram_labels_on_device(diagram, &row, memory + 2, 7), LOCUS_E_CAPACITY, "capacity is 7");
+    REFUSES(locus_diagram_labels_on_device(diagram, &row, memory + 2, 8), LOCUS_E_ARGUMENT, "not a multiple of 4");
+    REFUSES(locus_diagram_distances_on_device(diagram, NULL, memory, 8), LOCUS_E_CAPACITY, "the box has 65536 voxels");
+    REFUSES(locus_diagram_distances_exact_on_device(diagram, &outside, memory, 8), LOCUS_E_ARGUMENT, "box");
+    REFUSES(locus_diagram_distances_exact_on_device(diagram, &row, memory + 4, 8), LOCUS_E_ARGUMENT, "multiple of 8");
+    if (have_driver()) {
+        uint32_t *const host = malloc(8 * sizeof *host);
+        REFUSES(locus_diagram_labels_on_device(diagram, &row, host, 8), LOCUS_E_ARGUMENT, "can write to");
+        free(host);
+    }
+    locus_diagram_destroy(diagram);
+    locus_graph_destroy(graph);
+    device_free(memory);
+}
+
 /* What is the same with and without a GPU. */
 static void automatic(int gpu) {
     locus_diagram_options drawing;
     locus_diagram *diagram = NULL;
-    locus_graph *graph = automatic_graph(8);
+    locus_graph *graph = automatic_graph(8, 2);
     CHECK(backend_of(graph) == LOCUS_BACKEND_CPU);
     locus_graph_destroy(graph);
-    graph = automatic_graph(65536);
+    graph = automatic_graph(65536, 2);
     CHECK(backend_of(graph) == (gpu ? LOCUS_BACKEND_CUDA : LOCUS_BACKEND_CPU));
     WORKS(locus_diagram_options_init(&drawing, sizeof drawing));
     drawing.reserved0 = 1;
@@ -328,6 +535,10 @@ int main(int argc, char **argv) {
         falls_back();
         return check_result();
     }
+    if (strcmp(words, "keeps") == 0) {
+        keeps();
+        return check_result();
+    }
     if (strcmp(words, "stream") == 0)
         callers_stream = (void *)(size_t)2;
     WORKS(locus_graph_options_init(&options, sizeof options));
@@ -347,6 +558,7 @@ int main(int argc, char **argv) {
         CHECK(graph == NULL);
     } else {
         compare(rounds);
+        refused();
     }
     options.weight_rule = LOCUS_WEIGHT_CALLER;
     options.weight = callers;

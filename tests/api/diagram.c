@@ -69,6 +69,8 @@ static void options_of_both(locus_graph *graph, locus_diagram *diagram) {
     BAD_OPTION(struct_size = 0, "struct_size is 0");
     BAD_OPTION(engine = 99, "engine is 99");
     BAD_OPTION(record_trace = 2, "record_trace is 2");
+    BAD_OPTION(on_device = 2, "on_device is 2");
+    BAD_OPTION(reserved1 = 3, "reserved1 is 3");
     BAD_OPTION(max_distance = -1, "max_distance is -1");
     BAD_OPTION(max_distance = NAN, "max_distance");
     WORKS(locus_diagram_options_init(&newer.options, sizeof newer));
@@ -150,6 +152,7 @@ static void unsolved(locus_diagram *diagram) {
     REFUSES(locus_diagram_labels(diagram, NULL, labels, VOXELS), LOCUS_E_STATE, "solve");
     REFUSES(locus_diagram_distances(diagram, NULL, distances, VOXELS), LOCUS_E_STATE, "solve");
     REFUSES(locus_diagram_distances_exact(diagram, NULL, numbers, VOXELS), LOCUS_E_STATE, "solve");
+    REFUSES(locus_diagram_labels_on_device(diagram, NULL, labels, VOXELS), LOCUS_E_STATE, "solve");
     REFUSES(locus_diagram_path(diagram, 0, 0, 0, numbers, VOXELS, &count), LOCUS_E_STATE, "solve");
     REFUSES(locus_diagram_cell_sizes(diagram, numbers, VOXELS, &count), LOCUS_E_STATE, "solve");
     REFUSES(locus_diagram_cell_pairs(diagram, pairs, 4, &count), LOCUS_E_STATE, "solve");
@@ -179,6 +182,12 @@ static void bad_reads(locus_diagram *diagram) {
     REFUSES(locus_diagram_distances_exact(diagram, &row, NULL, N), LOCUS_E_ARGUMENT, "distances is NULL");
     REFUSES(locus_diagram_distances_exact(diagram, &outside, numbers, N), LOCUS_E_ARGUMENT, "box");
     REFUSES(locus_diagram_distances_exact(diagram, &row, numbers, N - 1), LOCUS_E_CAPACITY, "capacity is 7");
+    REFUSES(locus_diagram_labels_on_device(NULL, &row, labels, N), LOCUS_E_ARGUMENT, "diagram is NULL");
+    REFUSES(locus_diagram_labels_on_device(diagram, &row, labels, N), LOCUS_E_UNSUPPORTED, "solved on the CPU");
+    REFUSES(locus_diagram_distances_on_device(NULL, &row, distances, N), LOCUS_E_ARGUMENT, "diagram is NULL");
+    REFUSES(locus_diagram_distances_on_device(diagram, &row, distances, N), LOCUS_E_UNSUPPORTED, "solved on the CPU");
+    REFUSES(locus_diagram_distances_exact_on_device(NULL, &row, numbers, N), LOCUS_E_ARGUMENT, "diagram is NULL");
+    REFUSES(locus_diagram_distances_exact_on_device(diagram, &row, numbers, N), LOCUS_E_UNSUPPORTED, "on the CPU");
     REFUSES(locus_diagram_path(NULL, 0, 0, 0, numbers, N, &count), LOCUS_E_ARGUMENT, "diagram is NULL");
     REFUSES(locus_diagram_path(diagram, N, 0, 0, numbers, N, &count), LOCUS_E_ARGUMENT, "8");
     REFUSES(locus_diagram_path(diagram, 3, 0, 0, NULL, N, &count), LOCUS_E_ARGUMENT, "voxels is NULL");
@@ -253,6 +262,7 @@ int main(void) {
     WORKS(locus_diagram_options_init(&options, sizeof options));
     options.engine = LOCUS_ENGINE_RELAX;
     options.record_trace = 1;
+    options.on_device = 1; /* the CPU does as without */
     WORKS(locus_diagram_create(graph, &options, &diagram));
     REFUSES(locus_diagram_solve(diagram, NULL, NULL), LOCUS_E_STATE, "seed");
     WORKS(locus_diagram_add_seeds(diagram, seeds, 2));

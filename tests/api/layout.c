@@ -21,7 +21,7 @@ int main(void) {
     FIELD(locus_seed, id, 32);
     FIELD(locus_seed, fixed, 36);
 
-    SIZE(locus_diagram_options, 48);
+    SIZE(locus_diagram_options, 56);
     FIELD(locus_diagram_options, struct_size, 0);
     FIELD(locus_diagram_options, engine, 8);
     FIELD(locus_diagram_options, record_trace, 12);
@@ -29,6 +29,8 @@ int main(void) {
     FIELD(locus_diagram_options, grain, 24);
     FIELD(locus_diagram_options, reserved0, 36);
     FIELD(locus_diagram_options, stream, 40);
+    FIELD(locus_diagram_options, on_device, 48);
+    FIELD(locus_diagram_options, reserved1, 52);
 
     SIZE(locus_diagram_stats, 104);
     FIELD(locus_diagram_stats, struct_size, 0);

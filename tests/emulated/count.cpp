@@ -59,7 +59,7 @@ void count(const std::string &name, const bench::Volume &volume, const graph::Gr
     device::Field<Word> field(device, graph);
     graph::Words words;
     Progress progress;
-    field.solve({graph, sources}, words, progress);
+    field.solve({graph, sources}, &words, progress);
     const device::Work &work = field.work();
     // A visit reads words and operands of 10 x 10 x 10 cells, in sectors of 32 bytes, and writes at most its own words.
     const double word_sectors = sizeof(Word) == 4 ? 3 : 4, operand_sectors = 3;

@@ -244,6 +244,12 @@ int32_t download(Queue *, void *to, const void *from, uint64_t bytes, const Host
     return transfer(counters().downloaded, to, from, bytes, copy, why);
 }
 
+int32_t writable(Queue *, const void *, Message *why) {
+    int32_t status = LOCUS_OK;
+    fails(why, status);
+    return status;
+}
+
 int32_t launch(Queue *queue, const Launch *launched, Message *why) {
     int32_t status = LOCUS_OK;
     if (fails(why, status))
@@ -284,8 +290,8 @@ int32_t finish(Queue *, Message *why) {
 } // namespace
 
 const Table &table() {
-    static const Table table{sizeof(Table), kInterface, LOCUS_VERSION, open,   close,    use_stream, allocate,
-                             release,       upload,     download,      launch, resident, compact,    finish};
+    static const Table table{sizeof(Table), kInterface, LOCUS_VERSION, open,   close,    use_stream, allocate, release,
+                             upload,        download,   writable,      launch, resident, compact,    finish};
     return table;
 }
 

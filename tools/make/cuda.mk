@@ -54,16 +54,18 @@ $(OUT)/tests/%/libcuda.so.1:
 $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION): $(OUT)/tests/stale/libcuda.so.1
 	@cp $< $@
 
-.PHONY: api-cuda-emulated api-cuda-stale api-cuda-failing api-cuda-stream
+.PHONY: api-cuda-emulated api-cuda-stale api-cuda-failing api-cuda-keeping api-cuda-stream
 api-cuda-emulated: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) $< 24 GPU
 api-cuda-stale: $(OUT)/tests/api/cuda $(OUT)/tests/stale/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(OUT)/tests/stale $< 1 'of another version than liblocus'
 api-cuda-failing: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) EMULATED_CALLS=40 $< 1 fails
+api-cuda-keeping: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
+	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) bash -c 'for calls in {64..220..4}; do EMULATED_CALLS=$$calls $< 1 keeps || exit 1; done'
 api-cuda-stream: $(OUT)/tests/api/cuda $(EMULATED)/liblocus_cuda.so.$(SOVERSION)
 	$(STAGE) $(FLAVOUR)$@ env LD_LIBRARY_PATH=$(EMULATED) EMULATED_STREAM=2 $< 6 stream
-api: api-cuda-emulated api-cuda-stale api-cuda-failing api-cuda-stream
+api: api-cuda-emulated api-cuda-stale api-cuda-failing api-cuda-keeping api-cuda-stream
 
 # The library itself, as far as it goes without a GPU: what it exports, needs and holds; with a driver that is none it says so in CUDA's
 # words; and what its kernels compute with.
@@ -90,7 +92,7 @@ gpu-check: ## with nvcc, g++ and a GPU alone: build, test against the heap engin
 	@$(if $(NVCC),true,echo "gpu-check: there is no nvcc (PATH, /usr/local/cuda/bin, NVCC=)" >&2; exit 1)
 	@+$(MAKE) --no-print-directory SIMD=scalar SKIP_PACKAGES=1 gpu-check-here
 # The program of tests/api with liblocus alone: the other libraries need packages.
-$(OUT)/tests/gpu/cuda: tests/api/cuda.c tests/api/check.h $(SHARED_locus)
+$(OUT)/tests/gpu/cuda: tests/api/cuda.c tests/api/check.h tests/api/device_memory.h $(SHARED_locus)
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	@$(CC) -Iinclude $(CPPFLAGS) $(CFLAGS_ALL) -std=c99 $< -o $@ -L$(OUT) -llocus -Wl,-rpath,'$$ORIGIN/../..' $(LDFLAGS_ALL) -lm

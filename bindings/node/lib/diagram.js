@@ -29,6 +29,7 @@ export class Diagram {
       max_distance: given.maxDistance,
       grain: given.grain && triple(given.grain, 'grain'),
       stream: given.stream === undefined ? undefined : integer(given.stream, 'uint64_t', 'stream'),
+      on_device: given.onDevice === undefined ? undefined : Number(given.onDevice),
     });
     const made = number64();
     Guard.enter({ reading: [graph[INNER].guard] })();

@@ -426,7 +426,7 @@ export const STRUCTS = {
     },
   },
   locus_diagram_options: {
-    size: 48,
+    size: 56,
     fields: {
       struct_size: ['uint64_t', 0, 1],
       engine: ['uint32_t', 8, 1],
@@ -435,6 +435,8 @@ export const STRUCTS = {
       grain: ['uint32_t', 24, 3],
       reserved0: ['uint32_t', 36, 1],
       stream: ['pointer', 40, 1],
+      on_device: ['uint32_t', 48, 1],
+      reserved1: ['uint32_t', 52, 1],
     },
   },
   locus_diagram_stats: {
@@ -695,6 +697,9 @@ export const FUNCTIONS = {
   locus_diagram_labels: ['liblocus', 'int32_t', ['void *', 'void *', 'void *', 'size_t']],
   locus_diagram_distances: ['liblocus', 'int32_t', ['void *', 'void *', 'void *', 'size_t']],
   locus_diagram_distances_exact: ['liblocus', 'int32_t', ['void *', 'void *', 'void *', 'size_t']],
+  locus_diagram_labels_on_device: ['liblocus', 'int32_t', ['void *', 'void *', 'void *', 'size_t']],
+  locus_diagram_distances_on_device: ['liblocus', 'int32_t', ['void *', 'void *', 'void *', 'size_t']],
+  locus_diagram_distances_exact_on_device: ['liblocus', 'int32_t', ['void *', 'void *', 'void *', 'size_t']],
   locus_diagram_path: ['liblocus', 'int32_t', ['void *', 'uint64_t', 'uint64_t', 'uint64_t', 'void *', 'size_t', 'void *']],
   locus_diagram_cell_sizes: ['liblocus', 'int32_t', ['void *', 'void *', 'size_t', 'void *']],
   locus_diagram_cell_pairs: ['liblocus', 'int32_t', ['void *', 'void *', 'size_t', 'void *']],

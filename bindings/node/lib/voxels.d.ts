@@ -151,6 +151,8 @@ export interface DiagramOptions {
   grain?: Triple;
   /** The address of the cudaStream_t that the CUDA backend puts all work on; it must outlive the diagram. A stream of its own. */
   stream?: bigint;
+  /** The CUDA backend leaves results in the GPU's memory until something reads them. */
+  onDevice?: boolean;
 }
 
 export interface PlaceOptions extends Listening {

@@ -7,7 +7,7 @@ import {
 async function voxels(): Promise<number> {
   using graph = new Graph({ dims: [5, 1, 1], material: new Float32Array(5), weightRule: 'mean_compliance' });
   const other: Graph = await Graph.create({ dims: [5, 1, 1], material: [1, 2, 3, 4, 5], log: (level, text) => console.log(level, text) });
-  const diagram = new Diagram(graph, { engine: Engine.HEAP, grain: [8, 4, 4], stream: 0n });
+  const diagram = new Diagram(graph, { engine: Engine.HEAP, grain: [8, 4, 4], stream: 0n, onDevice: false });
   diagram.addSeeds([{ position: [0, 0, 0], id: 7 }, { x: 4, y: 0, z: 0 }]);
   const labels: Uint32Array = (await diagram.solve({ progress: (fraction) => fraction < 1, signal: new AbortController().signal })).labels();
   const { box, voxels: changed } = diagram.updateSync();

@@ -196,7 +196,7 @@ test('seeds move and go; traces and infos', () => {
   assert.deepEqual(diagram.cellPairs, [{ a: 7, b: 8, edges: 1 }]);
   diagram.removeSeeds(7);
   assert.deepEqual([...diagram.solveSync().labels()], [8, 8, 8, 8, 8]);
-  const traced = new locus.Diagram(graph, { engine: 'relax', recordTrace: true, maxDistance: 3, grain: [16, 8, 1], stream: 0n });
+  const traced = new locus.Diagram(graph, { engine: 'relax', recordTrace: true, maxDistance: 3, grain: [16, 8, 1], stream: 0n, onDevice: true });
   traced.addSeeds([{ position: [0, 0, 0] }]);
   traced.solveSync();
   assert.equal(traced.trace.length, traced.stats.iterations);

@@ -63,17 +63,20 @@ class Diagram:
     stream : int, optional
         The address of the ``cudaStream_t`` that the CUDA backend puts all work on, such as ``stream.ptr`` of a CuPy stream; it must
         outlive the diagram and its weights. By default streams of the library's own.
+    on_device : bool
+        The CUDA backend leaves results in the GPU's memory until something reads them on the host: see `labels_on_device`.
     """
 
     def __init__(
         self, graph: Graph, *, engine: Engine | str = Engine.AUTO, record_trace: bool = False, max_distance: float = math.inf,
-        grain: tuple[int, int, int] | None = None, stream: int | None = None,
+        grain: tuple[int, int, int] | None = None, stream: int | None = None, on_device: bool = False,
     ) -> None:  # fmt: skip
         if grain is not None and len(grain) != 3:
             raise ValueError(f"grain must be three numbers (x, y, z), not {grain}")
         options = filled_options(
             "locus_diagram_options", lib.locus_diagram_options_init, engine=enum_value(Engine, engine), record_trace=record_trace,
             max_distance=max_distance, grain=grain, stream=None if stream is None else ffi.cast("void *", stream),
+            on_device=on_device,
         )  # fmt: skip
         self._graph = graph
         self._guard = Guard("Diagram")
@@ -189,6 +192,19 @@ class Diagram:
         """The distance in steps: a uint64 array (z, y, x); divide by ``graph.info.scale``."""
         return self._read(lib.locus_diagram_distances_exact, np.uint64, "uint64_t *", box, out)
 
+    def labels_on_device(self, out: Any, box: Box = None) -> None:
+        """`labels` into an array on the GPU that solved the diagram: a uint32 array (z, y, x) of CuPy, PyTorch, Numba or whatever has
+        ``__cuda_array_interface__``. With a `stream` the work is put there and not waited for."""
+        self._read_on_device(lib.locus_diagram_labels_on_device, np.uint32, box, out)
+
+    def distances_on_device(self, out: Any, box: Box = None) -> None:
+        """`distances` into a float32 array on the GPU."""
+        self._read_on_device(lib.locus_diagram_distances_on_device, np.float32, box, out)
+
+    def distances_exact_on_device(self, out: Any, box: Box = None) -> None:
+        """`distances_exact` into a uint64 array on the GPU."""
+        self._read_on_device(lib.locus_diagram_distances_exact_on_device, np.uint64, box, out)
+
     def path(self, position: tuple[int, int, int]) -> Array:
         """The shortest path from (x, y, z) to its seed, as (n, 3) positions, both ends included; empty where no seed reaches."""
 
@@ -231,6 +247,15 @@ class Diagram:
         with self._guard.reading():
             check(function(self._handle, c_box(where), pointer(array, kind), array.size))
         return array
+
+    def _read_on_device(self, function: Callable[..., int], dtype: Any, box: Box, out: Any) -> None:
+        where = box_of(box, self._graph.shape)
+        about = out.__cuda_array_interface__
+        address, read_only = about["data"]
+        if np.dtype(about["typestr"]) != dtype or tuple(about["shape"]) != where.shape or about.get("strides") is not None or read_only:
+            raise ValueError(f"out must be a writable C-contiguous {np.dtype(dtype)} array of shape {where.shape} on the GPU")
+        with self._guard.reading():
+            check(function(self._handle, c_box(where), ffi.cast("void *", address), math.prod(where.shape)))
 
     def _listed(self, dtype: np.dtype[Any], kind: str, function: Callable[..., int]) -> Array:
         """A list whose length the library tells: asked for with no room first, then with what it needs."""

@@ -208,6 +208,39 @@ def test_arrays_are_not_copied():
     assert np.shares_memory(weights.volume(values := weights.interpolate([2])), values)
 
 
+class OnDevice:
+    """What an array on a GPU says of itself; this one is the host's."""
+
+    def __init__(self, array, **other):
+        about = {"shape": array.shape, "typestr": array.dtype.str, "data": (array.ctypes.data, False), "version": 3}
+        self.__cuda_array_interface__ = about | other
+
+
+@pytest.mark.parametrize(
+    "name, dtype", [("labels_on_device", "uint32"), ("distances_on_device", "float32"), ("distances_exact_on_device", "uint64")]
+)
+def test_results_on_the_device(monkeypatch, name, dtype):
+    diagram = locus.Diagram(locus.Graph(np.ones((2, 3, 4)), backend="cpu"), on_device=True)
+    diagram.add_seeds([[0, 0, 0]])
+    read, array = getattr(diagram.solve(), name), np.zeros((2, 3, 4), dtype)
+    with pytest.raises(locus.UnsupportedError, match="solved on the CPU"):
+        read(OnDevice(array))
+    for bad in (OnDevice(array[1:]), OnDevice(array, typestr="<f8"), OnDevice(array, strides=(1, 2, 3)), OnDevice(array, data=(1, True))):
+        with pytest.raises(ValueError, match=f"C-contiguous {dtype} array of shape .2, 3, 4."):
+            read(bad)
+    library, asked = locus.diagram.lib, []
+
+    class Watched:
+        def __getattr__(self, function):
+            return lambda *arguments: asked.append((function, *arguments)) or 0
+
+    monkeypatch.setattr(locus.diagram, "lib", Watched())
+    read(OnDevice(array))
+    monkeypatch.setattr(locus.diagram, "lib", library)
+    (function, _, _, address, capacity), = asked
+    assert (function, int(ffi.cast("uintptr_t", address)), capacity) == ("locus_diagram_" + name, array.ctypes.data, 24)
+
+
 def test_options_of_the_cuda_backend(monkeypatch):
     graph, seen = locus.Graph(np.ones(3)), []
 
@@ -216,14 +249,14 @@ def test_options_of_the_cuda_backend(monkeypatch):
             return getattr(library, name)
 
         def locus_diagram_create(self, graph, options, made):
-            seen.append((tuple(options.grain), int(ffi.cast("uintptr_t", options.stream)), options.engine))
+            seen.append((tuple(options.grain), int(ffi.cast("uintptr_t", options.stream)), options.engine, options.on_device))
             return library.locus_diagram_create(graph, options, made)
 
     library = locus.diagram.lib
     monkeypatch.setattr(locus.diagram, "lib", Watched())
     locus.Diagram(graph)
-    locus.Diagram(graph, grain=(16, 2, 1), stream=0x7F00)
-    assert seen == [((8, 4, 4), 0, locus.Engine.AUTO), ((16, 2, 1), 0x7F00, locus.Engine.AUTO)]
+    locus.Diagram(graph, grain=(16, 2, 1), stream=0x7F00, on_device=True)
+    assert seen == [((8, 4, 4), 0, locus.Engine.AUTO, 0), ((16, 2, 1), 0x7F00, locus.Engine.AUTO, 1)]
     with pytest.raises(locus.UnsupportedError):
         locus.Diagram(locus.Graph(np.ones(3), backend="cpu"), engine="compact", grain=(8, 4, 4))
     with pytest.raises(ValueError, match="grain must be three numbers"):

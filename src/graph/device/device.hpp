@@ -156,6 +156,9 @@ public:
     void compact(const uint8_t *flags, uint64_t count, uint64_t *list, uint64_t *listed) {
         call([&](Message *why) { return table_.compact(queue_, flags, count, list, listed, why); });
     }
+    void check_writable(const void *memory) {
+        call([&](Message *why) { return table_.writable(queue_, memory, why); });
+    }
     void finish() {
         call([&](Message *why) { return table_.finish(queue_, why); });
     }

@@ -90,6 +90,8 @@ int32_t run_plain(Runner &runner, const Launch &launch) {
         return run_by_word<Gather>(runner, launch);
     case Kernel::export_words:
         return run_by_word<Export>(runner, launch);
+    case Kernel::read:
+        return run_by_word<Read>(runner, launch);
     case Kernel::tally:
         return launch.word_bits == 32 ? runner.template blocks<Tally<uint32_t>>(launch)
                                       : runner.template blocks<Tally<uint64_t>>(launch);

@@ -31,6 +31,11 @@ protected:
         }
     }
     virtual void forget() {}
+    // Wait for what is in the queue, unless that is the caller's to do.
+    void finish() {
+        if (stream_ == nullptr)
+            device_->finish();
+    }
 
 private:
     const Table &table_;
@@ -54,23 +59,44 @@ private:
 
 class BrickEngine final : public DeviceEngine {
 public:
-    using DeviceEngine::DeviceEngine;
+    BrickEngine(const Table &table, void *stream, bool keeps) : DeviceEngine(table, stream), keeps_(keeps) {}
     ~BrickEngine() override { forget(); } // before the device goes
     uint32_t kind() const override { return LOCUS_ENGINE_BRICKS; }
     Report solve(const Problem &problem, Words &words, Progress &progress) override {
-        return with_field(problem.graph, [&](auto &field) { return field.solve(problem, words, progress); });
+        return with_field(problem.graph, [&](auto &field) { return field.solve(problem, own(words), progress); });
     }
     Report update(const Problem &problem, Words &words, Progress &progress, Change &change) override {
         bool can = false;
         with_field(problem.graph, [&](auto &field) {
-            can = field.can_update(problem, words);
-            return can ? field.update(problem, words, progress, change) : Report{};
+            can = field.can_update(problem, own(words));
+            if (can)
+                return field.update(problem, own(words), progress, change);
+            return keeps_ ? field.solve(problem, nullptr, progress, &change) : Report{};
         });
-        return can ? last_ : graph::Engine::update(problem, words, progress, change);
+        return can || keeps_ ? last_ : graph::Engine::update(problem, words, progress, change);
+    }
+    void fetch(Words &words) override {
+        on_result([&](auto &field) { field.give(words); });
+    }
+    void write(const graph::Reading &reading, void *to) override {
+        on_result([&](auto &field) { field.write(reading, to); });
+        finish();
     }
     size_t bytes() const override { return narrow_ ? narrow_->bytes() : wide_ ? wide_->bytes() : 0; }
 
 private:
+    // Where the engine is to leave the words.
+    Words *own(Words &words) const { return keeps_ ? nullptr : &words; }
+    template <typename Run>
+    void on_result(Run &&run) {
+        if (narrow_ && narrow_->solved())
+            run(*narrow_);
+        else if (wide_ && wide_->solved())
+            run(*wide_);
+        else
+            fail(LOCUS_E_STATE,
+                 "the GPU failed after the diagram was solved: its result is in the host's memory alone");
+    }
     void forget() override {
         narrow_.reset();
         wide_.reset();
@@ -92,6 +118,7 @@ private:
         return *field;
     }
 
+    bool keeps_;
     const Graph *graph_ = nullptr;
     std::unique_ptr<Field<uint32_t>> narrow_;
     std::unique_ptr<Field<uint64_t>> wide_;
@@ -100,14 +127,15 @@ private:
 
 } // namespace
 
-std::unique_ptr<graph::Engine> make_engine(const Table &table, uint32_t kind, const Grain &grain, void *stream) {
+std::unique_ptr<graph::Engine> make_engine(const Table &table, uint32_t kind, const Grain &grain, void *stream,
+                                           bool keeps) {
     switch (kind) {
     case LOCUS_ENGINE_RELAX:
         return std::make_unique<DenseEngine>(table, kind, Grain{}, stream);
     case LOCUS_ENGINE_COMPACT:
         return std::make_unique<DenseEngine>(table, kind, grain, stream);
     default:
-        return std::make_unique<BrickEngine>(table, stream);
+        return std::make_unique<BrickEngine>(table, stream, keeps);
     }
 }
 

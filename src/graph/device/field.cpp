@@ -73,7 +73,7 @@ Field<Word>::Field(Device &device, const graph::Graph &graph) : device_(device),
 template <typename Word>
 uint64_t Field<Word>::bytes() const {
     return words_.bytes() + operands_.bytes() + open_.bytes() + key_.bytes() + waiting_.bytes() + near_.bytes() +
-           touched_.bytes() + is_touched_.bytes();
+           touched_.bytes() + is_touched_.bytes() + before_.bytes();
 }
 
 template <typename Word>
@@ -265,15 +265,41 @@ void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
     });
 }
 
+// Make before_ the words that the latest solve or update left, or none.
 template <typename Word>
-Tallied Field<Word>::tally() {
-    const Tallied none{};
-    device_.upload(tallied_.get(), std::span<const Tallied>(&none, 1));
-    Tally<Word> body{bricks(), 0, tallied_.get()};
+void Field<Word>::remember(const Problem &problem) {
+    const bool anew = problem.anew || !solved_;
+    if (remembered_ && !anew)
+        return;
+    if (before_.count() == 0)
+        before_ = device_.allocate<Word>(words_.count());
+    fill(before_, beyond_);
+    if (!anew)
+        tally(true);
+    remembered_ = true;
+}
+
+// Look at all words; `compare` them with before_, too, which they become.
+template <typename Word>
+Tallied Field<Word>::tally(bool compare) {
+    const Tallied nothing = Tallied::nothing();
+    device_.upload(tallied_.get(), std::span<const Tallied>(&nothing, 1));
+    Tally<Word> body{bricks(), compare ? before_.get() : nullptr, 0, tallied_.get()};
     const Launch with = launch(Kernel::tally);
     body.blocks = std::min<uint64_t>(device_.resident(with, body), layout().count());
     device_.launch(with, body, body.blocks);
     return device_.download(tallied_.get());
+}
+
+// The words stay on the device; what is known of them.
+template <typename Word>
+void Field<Word>::keep(Change *change, Report &report) {
+    const Tallied tallied = tally(change != nullptr);
+    remembered_ = change != nullptr;
+    reached_ = tallied.reached;
+    report.kept = {tallied.reached, graph_.layout().distance(tallied.largest)};
+    if (change != nullptr)
+        *change = graph::change_between(tallied.changed, tallied.first, tallied.last);
 }
 
 // All words to dense memory, in parts that need little room on the device.
@@ -294,11 +320,26 @@ void Field<Word>::give(Words &words) {
 }
 
 template <typename Word>
-Report Field<Word>::solve(const Problem &problem, Words &words, Progress &progress) {
+void Field<Word>::write(const graph::Reading &reading, void *to) {
+    device_.check_writable(to);
+    if (reading.told == graph::Told::ids && !has_ids_) {
+        ids_ = device_.copy_of(reading.ids);
+        has_ids_ = true;
+    }
+    Read<Word> body{bricks(), graph_.layout(), reading.told, {}, {}, ids_.get(), reading.scale, to};
+    std::copy_n(reading.box.origin, 3, body.origin);
+    std::copy_n(reading.box.extent, 3, body.extent);
+    device_.launch(launch(Kernel::read), body, body.count());
+}
+
+template <typename Word>
+Report Field<Word>::solve(const Problem &problem, Words *words, Progress &progress, Change *change) {
     graph::Stopwatch watch;
     Report report;
-    solved_ = false;
     beyond_ = beyond_of<Word>(graph_, problem.limit());
+    if (change != nullptr)
+        remember(problem);
+    solved_ = remembered_ = has_ids_ = false;
     import();
     set_sources(problem.sources);
     report.seconds_import = watch.lap();
@@ -311,8 +352,12 @@ Report Field<Word>::solve(const Problem &problem, Words &words, Progress &progre
     report.relaxations = work_.passes * kVoxels * graph_.grid().connectivity();
     report.seconds_solve = watch.lap();
 
-    reached_ = tally().reached;
-    give(words);
+    if (words != nullptr) {
+        reached_ = tally(false).reached;
+        give(*words);
+    } else {
+        keep(change, report);
+    }
     report.clipped = reached_ < graph_.passable_voxels();
     solved_ = true;
     report.seconds_export = watch.lap();
@@ -320,10 +365,11 @@ Report Field<Word>::solve(const Problem &problem, Words &words, Progress &progre
 }
 
 template <typename Word>
-bool Field<Word>::can_update(const Problem &problem, const Words &words) const {
-    const auto *dense = std::get_if<std::vector<Word>>(&words);
-    return solved_ && imported_ && beyond_ == beyond_of<Word>(graph_, problem.limit()) && dense != nullptr &&
-           dense->size() == graph_.grid().voxels() && graph_.edits_since(*imported_).has_value();
+bool Field<Word>::can_update(const Problem &problem, const Words *words) const {
+    const auto *dense = words != nullptr ? std::get_if<std::vector<Word>>(words) : nullptr;
+    const bool has_words = words == nullptr || (dense != nullptr && dense->size() == graph_.grid().voxels());
+    return solved_ && imported_ && !problem.anew && has_words && beyond_ == beyond_of<Word>(graph_, problem.limit()) &&
+           graph_.edits_since(*imported_).has_value();
 }
 
 // The bricks of all voxels that look at an edited one, and those of the seeds that are gone.
@@ -360,10 +406,12 @@ std::vector<uint32_t> Field<Word>::edited_bricks(std::span<const Source> sources
 // Raise what nothing supports any more, then lower from there on, from the edits and from new seeds; see
 // graph/bricks/update.cpp.
 template <typename Word>
-Report Field<Word>::update(const Problem &problem, Words &words, Progress &progress, Change &change) {
+Report Field<Word>::update(const Problem &problem, Words *words, Progress &progress, Change &change) {
     graph::Stopwatch watch;
     Report report;
-    solved_ = false;
+    if (words == nullptr)
+        remember(problem);
+    solved_ = has_ids_ = false;
     const std::vector<uint32_t> edited = edited_bricks(problem.sources);
     import(edited);
     set_sources(problem.sources);
@@ -386,7 +434,10 @@ Report Field<Word>::update(const Problem &problem, Words &words, Progress &progr
     report.relaxations = work_.passes * kVoxels * graph_.grid().connectivity();
     report.seconds_solve = watch.lap();
 
-    change = give_touched(words);
+    if (words != nullptr)
+        change = give_touched(*words);
+    else
+        keep(&change, report);
     report.clipped = reached_ < graph_.passable_voxels();
     solved_ = true;
     report.seconds_export = watch.lap();
@@ -408,7 +459,7 @@ Change Field<Word>::give_touched(Words &words) {
                    values.size());
     device_.download(std::span<Word>(values), packed.get());
 
-    Change change;
+    uint64_t changed = 0;
     std::array<uint64_t, 3> first = grid.dims(), last{};
     for (size_t i = 0; i < list.size(); ++i)
         for_voxels(grid, bricks, list[i], [&](uint64_t voxel, uint64_t position) {
@@ -416,7 +467,7 @@ Change Field<Word>::give_touched(Words &words) {
             const Word word = stored < beyond_ ? stored : unreached;
             if (word == dense[voxel])
                 return;
-            ++change.voxels;
+            ++changed;
             reached_ += dense[voxel] == unreached ? 1 : 0;
             reached_ -= word == unreached ? 1 : 0;
             dense[voxel] = word;
@@ -426,11 +477,7 @@ Change Field<Word>::give_touched(Words &words) {
                 last[a] = std::max(last[a], place[a]);
             }
         });
-    for (size_t a = 0; a < 3 && change.voxels > 0; ++a) {
-        change.box.origin[a] = first[a];
-        change.box.extent[a] = last[a] - first[a] + 1;
-    }
-    return change;
+    return graph::change_between(changed, first, last);
 }
 
 template class Field<uint32_t>;

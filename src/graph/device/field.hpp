@@ -24,10 +24,17 @@ class Field {
 public:
     Field(Device &device, const graph::Graph &graph);
 
-    // As Engine::solve and Engine::update; after any failure the field is of no more use.
-    graph::Report solve(const graph::Problem &problem, graph::Words &words, Progress &progress);
-    bool can_update(const graph::Problem &problem, const graph::Words &words) const;
-    graph::Report update(const graph::Problem &problem, graph::Words &words, Progress &progress, graph::Change &change);
+    // As Engine::solve and Engine::update; after any failure the field is of no more use. `words` null: they stay on
+    // the device. `change` not null: what it changed, which only words that stay there ask for.
+    graph::Report solve(const graph::Problem &problem, graph::Words *words, Progress &progress,
+                        graph::Change *change = nullptr);
+    bool can_update(const graph::Problem &problem, const graph::Words *words) const;
+    graph::Report update(const graph::Problem &problem, graph::Words *words, Progress &progress, graph::Change &change);
+
+    // The words of the latest of these; a failure changes nothing.
+    bool solved() const { return solved_; }
+    void give(graph::Words &words);
+    void write(const graph::Reading &reading, void *to);
 
     uint64_t bytes() const;
     const Work &work() const { return work_; }
@@ -52,8 +59,9 @@ private:
     void plant(bool record);
     void run_rounds(bool raise, bool record, Progress &progress);
     std::vector<uint32_t> edited_bricks(std::span<const graph::Source> sources) const;
-    Tallied tally();
-    void give(graph::Words &words);
+    void remember(const graph::Problem &problem);
+    Tallied tally(bool compare);
+    void keep(graph::Change *change, graph::Report &report);
     graph::Change give_touched(graph::Words &words);
 
     Device &device_;
@@ -68,6 +76,10 @@ private:
     Memory<uint64_t> seed_address_;
     Memory<Word> seed_word_;
     Memory<Tallied> tallied_;
+    Memory<Word> before_; // where words stay on the device and an update tells what it changed: those it began with
+    bool remembered_ = false;
+    Memory<uint32_t> ids_; // of the seeds, by label, once they were asked for
+    bool has_ids_ = false;
 
     std::optional<uint64_t> imported_; // the graph's version when its materials were read
     bool solved_ = false;              // the words are those of sources_ at version imported_

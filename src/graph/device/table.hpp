@@ -11,7 +11,7 @@
 namespace locus::device {
 
 // Grows whenever the table, a body or the meaning of either changes between two releases.
-inline constexpr uint32_t kInterface = 2;
+inline constexpr uint32_t kInterface = 3;
 
 enum class Kernel : uint32_t {
     fill_bytes,
@@ -27,6 +27,7 @@ enum class Kernel : uint32_t {
     scatter_open,
     gather,
     export_words,
+    read,
     tally,
     // graph/device/dense.hpp
     relax,
@@ -80,6 +81,8 @@ struct Table {
     int32_t (*upload)(Queue *queue, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why);
     // Waits for all that was put into the queue before.
     int32_t (*download)(Queue *queue, void *to, const void *from, uint64_t bytes, const HostCopy *copy, Message *why);
+    // Whether kernels may write to memory of the caller's; `why` says why not.
+    int32_t (*writable)(Queue *queue, const void *memory, Message *why);
     int32_t (*launch)(Queue *queue, const Launch *launch, Message *why);
     // How many blocks of a kernel run at the same time.
     int32_t (*resident)(Queue *queue, const Launch *launch, uint64_t *blocks, Message *why);

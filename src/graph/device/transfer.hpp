@@ -4,6 +4,9 @@
 #include "graph/device/block.hpp"
 #include "graph/device/bricks.hpp"
 #include "graph/device/visit.hpp"
+#include "graph/reading.hpp"
+
+#include <locus/diagram.h>
 
 namespace locus::device {
 
@@ -58,13 +61,49 @@ struct Export {
     }
 };
 
-// What is found in the words of bricks.
-struct Tallied {
-    uint64_t reached; // voxels,
-    uint64_t largest; // and the largest of their words
+// What a solved diagram tells of the voxels of a box, into the caller's memory.
+template <typename Word>
+struct Read {
+    Bricks<Word> bricks;
+    WordLayout layout;
+    graph::Told told;
+    uint64_t origin[3], extent[3];
+    const uint32_t *ids; // of seeds, by label
+    double scale;
+    void *to;
+
+    LOCUS_HD uint64_t count() const { return extent[0] * extent[1] * extent[2]; }
+    LOCUS_HD void operator()(uint64_t i) const {
+        const uint64_t row = i / extent[0];
+        const Word word = bricks.words[bricks.layout.address(origin[0] + i % extent[0], origin[1] + row % extent[1],
+                                                             origin[2] + row / extent[1])];
+        const bool reached = word < bricks.beyond;
+        switch (told) {
+        case graph::Told::ids:
+            static_cast<uint32_t *>(to)[i] = reached ? ids[layout.label(word)] : LOCUS_NO_SEED;
+            break;
+        case graph::Told::distances:
+            static_cast<float *>(to)[i] = reached
+                                              ? static_cast<float>(static_cast<double>(layout.distance(word)) / scale)
+                                              : std::numeric_limits<float>::infinity();
+            break;
+        case graph::Told::exact_distances:
+            static_cast<uint64_t *>(to)[i] = reached ? layout.distance(word) : UINT64_MAX;
+            break;
+        }
+    }
 };
 
-// Count over all bricks.
+// What the words of all voxels are, and which are not what they were before.
+struct Tallied {
+    uint64_t reached;           // voxels,
+    uint64_t largest;           // and the largest of their words
+    uint64_t changed;           // voxels,
+    uint64_t first[3], last[3]; // and the box around them
+
+    LOCUS_HD static constexpr Tallied nothing() { return {0, 0, 0, {UINT64_MAX, UINT64_MAX, UINT64_MAX}, {0, 0, 0}}; }
+};
+
 template <typename Word>
 struct Tally {
     static constexpr unsigned threads = 256;
@@ -74,21 +113,22 @@ struct Tally {
     struct Local {};
 
     Bricks<Word> bricks;
+    Word *before;     // the words before, which become those of now; null: nobody asks what changed
     uint64_t blocks;  // launched
-    Tallied *tallied; // zeros before
+    Tallied *tallied; // nothing yet
 
     template <typename Block>
     LOCUS_HD void operator()(Block &block) const {
         Shared &s = block.shared;
         block.each([&](unsigned thread, Local &) {
             if (thread == 0)
-                s.sum = {0, 0};
+                s.sum = Tallied::nothing();
         });
         block.each([&](unsigned thread, Local &) {
-            Tallied own{0, 0};
+            Tallied own = Tallied::nothing();
             for (uint64_t brick = block.index(); brick < bricks.layout.count(); brick += blocks)
                 for (unsigned voxel = thread; voxel < kVoxels; voxel += threads)
-                    look(bricks.words[brick * kVoxels + voxel], own);
+                    look(static_cast<uint32_t>(brick), voxel, own);
             add(own, &s.sum);
         });
         block.each([&](unsigned thread, Local &) {
@@ -98,17 +138,38 @@ struct Tally {
     }
 
 private:
-    LOCUS_HD void look(Word word, Tallied &own) const {
-        if (word >= bricks.beyond)
+    LOCUS_HD void look(uint32_t brick, unsigned voxel, Tallied &own) const {
+        const uint64_t at = uint64_t{brick} * kVoxels + voxel;
+        const Word word = bricks.words[at] < bricks.beyond ? bricks.words[at] : bricks.beyond;
+        if (word < bricks.beyond) {
+            ++own.reached;
+            own.largest = word > own.largest ? word : own.largest;
+        }
+        if (before == nullptr || before[at] == word)
             return;
-        ++own.reached;
-        own.largest = word > own.largest ? word : own.largest;
+        before[at] = word;
+        ++own.changed;
+        const unsigned in[3] = {voxel % kSide, voxel / kSide % kSide, voxel / (kSide * kSide)};
+        int place[3];
+        bricks.layout.place(brick, place);
+        for (unsigned a = 0; a < 3; ++a) {
+            const uint64_t x = static_cast<uint64_t>(place[a]) * kSide + in[a];
+            own.first[a] = x < own.first[a] ? x : own.first[a];
+            own.last[a] = x > own.last[a] ? x : own.last[a];
+        }
     }
     LOCUS_HD static void add(const Tallied &part, Tallied *to) {
-        if (part.reached == 0)
+        if (part.reached > 0) {
+            atomic_add(&to->reached, part.reached);
+            atomic_max(&to->largest, part.largest);
+        }
+        if (part.changed == 0)
             return;
-        atomic_add(&to->reached, part.reached);
-        atomic_max(&to->largest, part.largest);
+        atomic_add(&to->changed, part.changed);
+        for (unsigned a = 0; a < 3; ++a) {
+            atomic_min(&to->first[a], part.first[a]);
+            atomic_max(&to->last[a], part.last[a]);
+        }
     }
 };
 

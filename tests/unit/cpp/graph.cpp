@@ -42,6 +42,13 @@ TEST(CppGraph, DistancesOfABar) {
     EXPECT_EQ(diagram.distances_exact()[2], static_cast<uint64_t>(6.5 * scale));
     EXPECT_EQ(graph.edge_weight(0, 1), static_cast<uint64_t>(scale));
     EXPECT_EQ(diagram.path(2, 0, 0), (std::vector<uint64_t>{2, 1, 0}));
+    locus::status refused; // there is no GPU memory to write to
+    diagram.labels_on_device(&refused, 5, {}, &refused);
+    EXPECT_EQ(refused.code(), LOCUS_E_UNSUPPORTED);
+    diagram.distances_on_device(nullptr, 5, {}, &refused);
+    EXPECT_EQ(refused.code(), LOCUS_E_ARGUMENT);
+    diagram.distances_exact_on_device(&refused, 4, {}, &refused);
+    EXPECT_EQ(refused.code(), LOCUS_E_CAPACITY);
     EXPECT_EQ(diagram.cell_sizes(), (std::vector<uint64_t>{3, 2}));
     ASSERT_EQ(diagram.cell_pairs().size(), 1u);
     EXPECT_EQ(diagram.stats().reached, 5u);

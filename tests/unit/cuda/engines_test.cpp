@@ -186,7 +186,7 @@ TEST(CudaEngines, TakeFewerRoundsWithMoreBlocks) {
         device::Field<uint64_t> field(device, graph);
         Words words;
         locus::Progress progress;
-        field.solve({graph, sources}, words, progress);
+        field.solve({graph, sources}, &words, progress);
         return field.work().rounds;
     };
     ASSERT_EQ(graph.layout().bits, 64u);

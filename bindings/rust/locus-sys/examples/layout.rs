@@ -237,6 +237,8 @@ fn main() {
     println!("locus_diagram_options.grain {}", offset!(locus_diagram_options, grain));
     println!("locus_diagram_options.reserved0 {}", offset!(locus_diagram_options, reserved0));
     println!("locus_diagram_options.stream {}", offset!(locus_diagram_options, stream));
+    println!("locus_diagram_options.on_device {}", offset!(locus_diagram_options, on_device));
+    println!("locus_diagram_options.reserved1 {}", offset!(locus_diagram_options, reserved1));
     println!("locus_diagram_stats {}", core::mem::size_of::<locus_diagram_stats>());
     println!("locus_diagram_stats.struct_size {}", offset!(locus_diagram_stats, struct_size));
     println!("locus_diagram_stats.reached {}", offset!(locus_diagram_stats, reached));

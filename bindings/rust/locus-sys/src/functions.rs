@@ -208,6 +208,24 @@ extern "C" {
         distances: *mut u64,
         capacity: usize,
     ) -> locus_status;
+    pub fn locus_diagram_labels_on_device(
+        diagram: *const locus_diagram,
+        r#box: *const locus_voxel_box,
+        labels: *mut c_void,
+        capacity: usize,
+    ) -> locus_status;
+    pub fn locus_diagram_distances_on_device(
+        diagram: *const locus_diagram,
+        r#box: *const locus_voxel_box,
+        distances: *mut c_void,
+        capacity: usize,
+    ) -> locus_status;
+    pub fn locus_diagram_distances_exact_on_device(
+        diagram: *const locus_diagram,
+        r#box: *const locus_voxel_box,
+        distances: *mut c_void,
+        capacity: usize,
+    ) -> locus_status;
     pub fn locus_diagram_path(
         diagram: *const locus_diagram,
         x: u64,

@@ -414,6 +414,8 @@ pub struct locus_diagram_options {
     pub grain: [u32; 3],
     pub reserved0: u32,
     pub stream: *mut c_void,
+    pub on_device: u32,
+    pub reserved1: u32,
 }
 zeroed!(locus_diagram_options);
 

@@ -62,6 +62,8 @@ impl DiagramOptions {
         max_distance: f64;
         /// A grain's voxels, for [`Engine::Compact`].
         grain: [u32; 3];
+        /// The CUDA backend leaves results in the GPU's memory until something reads them; default no.
+        on_device: bool => u32::from;
     }
 }
 
