@@ -82,6 +82,8 @@ int32_t run_plain(Runner &runner, const Launch &launch) {
     case Kernel::resume:
         return launch.word_bits == 32 ? runner.template blocks<Resume<uint32_t>>(launch)
                                       : runner.template blocks<Resume<uint64_t>>(launch);
+    case Kernel::import:
+        return runner.template items<Import>(launch);
     case Kernel::scatter_operands:
         return runner.template items<Scatter<float>>(launch);
     case Kernel::scatter_open:

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 namespace locus::device {
 
@@ -118,43 +119,71 @@ void Field<Word>::fill(const Memory<T> &to, T value) {
 }
 
 template <typename Word>
-void Field<Word>::pack(std::span<const uint32_t> list, std::vector<float> &operands,
-                       std::vector<uint32_t> &open) const {
+std::vector<float> Field<Word>::operands(std::span<const uint32_t> list) const {
     const Operands operand(graph_);
-    const Layout bricks = layout();
-    operands.resize(list.size() * kVoxels);
-    open.assign(graph_.cuts() != nullptr ? list.size() * kVoxels : 0, 0);
+    std::vector<float> packed(list.size() * kVoxels, operand.impassable());
     parallel_for(graph_.threads(), list.size(), 64, [&](uint64_t begin, uint64_t end) {
-        std::fill(operands.begin() + static_cast<std::ptrdiff_t>(begin * kVoxels),
-                  operands.begin() + static_cast<std::ptrdiff_t>(end * kVoxels), operand.impassable());
         for (uint64_t i = begin; i < end; ++i)
-            for_voxels(graph_.grid(), bricks, list[i], [&](uint64_t voxel, uint64_t position) {
-                operands[i * kVoxels + position] = operand(voxel);
-                if (!open.empty())
-                    open[i * kVoxels + position] = graph_.open_edges(voxel);
+            for_voxels(graph_.grid(), layout(), list[i],
+                       [&](uint64_t voxel, uint64_t position) { packed[i * kVoxels + position] = operand(voxel); });
+    });
+    return packed;
+}
+
+template <typename Word>
+std::vector<uint32_t> Field<Word>::open_edges(std::span<const uint32_t> list) const {
+    std::vector<uint32_t> packed(list.size() * kVoxels);
+    parallel_for(graph_.threads(), list.size(), 64, [&](uint64_t begin, uint64_t end) {
+        for (uint64_t i = begin; i < end; ++i)
+            for_voxels(graph_.grid(), layout(), list[i], [&](uint64_t voxel, uint64_t position) {
+                packed[i * kVoxels + position] = graph_.open_edges(voxel);
             });
     });
+    return packed;
 }
 
 template <typename Word>
 void Field<Word>::import() {
     if (imported_ == graph_.version())
         return;
+    import_operands();
+    if (graph_.cuts() != nullptr)
+        import_open_edges();
+    imported_ = graph_.version();
+}
+
+// The materials as the graph has them, which the device makes operands of, in parts that need little room there.
+template <typename Word>
+void Field<Word>::import_operands() {
+    const graph::Grid &grid = graph_.grid();
+    const Layout bricks = layout();
+    const uint64_t plane = grid.nx() * grid.ny();
+    const uint64_t planes = kSide * std::clamp<uint64_t>((uint64_t{1} << 24) / (plane * kSide), 1, bricks.bricks[2]);
+    const auto part = device_.allocate<float>(plane * std::min(planes, grid.nz()));
+    for (uint64_t z = 0; z < grid.nz(); z += planes) {
+        const uint64_t voxels = plane * std::min(planes, grid.nz() - z);
+        device_.upload(part.get(), std::span<const float>(graph_.materials() + z * plane, voxels), graph_.threads());
+        const uint64_t first = z / kSide * bricks.bricks[0] * bricks.bricks[1];
+        const uint64_t last =
+            std::min<uint64_t>(first + planes / kSide * bricks.bricks[0] * bricks.bricks[1], bricks.count());
+        const Import body{bricks, graph_.operand(), Operands(graph_).impassable(), part.get(), z, operands_.get(),
+                          first,  last - first};
+        device_.launch(launch(Kernel::import), body, body.count());
+    }
+}
+
+template <typename Word>
+void Field<Word>::import_open_edges() {
     const uint32_t count = layout().count();
-    if (graph_.cuts() != nullptr && open_.count() == 0)
+    if (open_.count() == 0)
         open_ = device_.allocate<uint32_t>(uint64_t{count} * kVoxels);
-    std::vector<uint32_t> list, open;
-    std::vector<float> operands;
+    std::vector<uint32_t> list;
     for (uint32_t first = 0; first < count; first += static_cast<uint32_t>(list.size())) {
         list.resize(std::min<uint64_t>(bricks_at_once, count - first));
-        for (size_t i = 0; i < list.size(); ++i)
-            list[i] = first + static_cast<uint32_t>(i);
-        pack(list, operands, open);
-        device_.upload(operands_.get() + uint64_t{first} * kVoxels, std::span<const float>(operands), graph_.threads());
-        if (!open.empty())
-            device_.upload(open_.get() + uint64_t{first} * kVoxels, std::span<const uint32_t>(open), graph_.threads());
+        std::iota(list.begin(), list.end(), first);
+        device_.upload(open_.get() + uint64_t{first} * kVoxels, std::span<const uint32_t>(open_edges(list)),
+                       graph_.threads());
     }
-    imported_ = graph_.version();
 }
 
 // The bricks of a list alone. The first cut of a graph concerns all of them.
@@ -164,20 +193,19 @@ void Field<Word>::import(std::span<const uint32_t> list) {
         imported_.reset();
         return import();
     }
-    std::vector<uint32_t> open;
-    std::vector<float> operands;
     for (size_t first = 0; first < list.size(); first += bricks_at_once) {
         const auto part = list.subspan(first, std::min<size_t>(bricks_at_once, list.size() - first));
-        pack(part, operands, open);
         const auto where = device_.copy_of(part);
-        const auto packed = device_.copy_of(std::span<const float>(operands));
+        const auto packed = device_.copy_of(std::span<const float>(operands(part)));
         const Scatter<float> scatter{operands_.get(), packed.get(), where.get(), part.size()};
         device_.launch(launch(Kernel::scatter_operands), scatter, scatter.count());
-        const auto packed_open = device_.copy_of(std::span<const uint32_t>(open));
-        if (!open.empty())
+        Memory<uint32_t> packed_open;
+        if (graph_.cuts() != nullptr) {
+            packed_open = device_.copy_of(std::span<const uint32_t>(open_edges(part)));
             device_.launch(launch(Kernel::scatter_open),
                            Scatter<uint32_t>{open_.get(), packed_open.get(), where.get(), part.size()},
                            scatter.count());
+        }
         device_.finish(); // before the memory goes
     }
     imported_ = graph_.version();

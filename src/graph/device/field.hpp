@@ -49,9 +49,12 @@ private:
     template <typename T>
     void fill(const Memory<T> &to, T value);
 
-    // Operands and open edges of bricks from `first` on, or of those in a list, packed.
-    void pack(std::span<const uint32_t> list, std::vector<float> &operands, std::vector<uint32_t> &open) const;
+    // Of the bricks in a list, packed.
+    std::vector<float> operands(std::span<const uint32_t> list) const;
+    std::vector<uint32_t> open_edges(std::span<const uint32_t> list) const;
     void import();
+    void import_operands();
+    void import_open_edges();
     void import(std::span<const uint32_t> list);
     void set_sources(std::span<const graph::Source> sources);
 

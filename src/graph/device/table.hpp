@@ -23,6 +23,7 @@ enum class Kernel : uint32_t {
     lower,
     raise,
     resume,
+    import,
     scatter_operands,
     scatter_open,
     gather,

@@ -4,6 +4,7 @@
 #include "graph/device/block.hpp"
 #include "graph/device/bricks.hpp"
 #include "graph/device/visit.hpp"
+#include "graph/quantize.hpp"
 #include "graph/reading.hpp"
 
 #include <locus/diagram.h>
@@ -18,6 +19,37 @@ struct Fill {
 
     LOCUS_HD uint64_t count() const { return filled; }
     LOCUS_HD void operator()(uint64_t i) const { to[i] = value; }
+};
+
+// Operands of bricks that follow each other, from materials of whole planes, x fastest.
+struct Import {
+    Layout layout;
+    graph::Operand operand;
+    float impassable; // the operand of such voxels and of those outside the grid
+    const float *materials;
+    uint64_t z; // of their first plane
+    float *operands;
+    uint64_t first, bricks;
+
+    LOCUS_HD uint64_t count() const { return bricks * kVoxels; }
+    LOCUS_HD void operator()(uint64_t i) const {
+        const auto voxel = static_cast<unsigned>(i % kVoxels);
+        const unsigned in[3] = {voxel % kSide, voxel / kSide % kSide, voxel / (kSide * kSide)};
+        uint64_t at[3];
+        int place[3];
+        layout.place(static_cast<uint32_t>(first + i / kVoxels), place);
+        bool inside = true;
+        for (unsigned a = 0; a < 3; ++a) {
+            at[a] = static_cast<uint64_t>(place[a]) * kSide + in[a];
+            inside = inside && at[a] < layout.dims[a];
+        }
+        if (!inside) {
+            operands[first * kVoxels + i] = impassable;
+            return;
+        }
+        const float own = operand.of<float>(materials[at[0] + layout.dims[0] * (at[1] + layout.dims[1] * (at[2] - z))]);
+        operands[first * kVoxels + i] = own == own ? own : impassable;
+    }
 };
 
 // Between bricks of the whole grid and the bricks of a list, packed one after the other.
