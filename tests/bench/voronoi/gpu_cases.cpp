@@ -22,11 +22,12 @@ void need_gpu(Row &row) {
     row.backend = "cuda";
 }
 
-/// Ours against the thesis' base algorithm and its compaction on the same GPU, and the CPU's bricks, which are the
-/// oracle.
+/// Ours, also with results that stay on the GPU, against the thesis' base algorithm and its compaction on the same GPU,
+/// and the CPU's bricks, which are the oracle.
 void solve_case(Row &row, const Volume &volume, uint32_t words, double goal_ms) {
     need_gpu(row);
     const std::vector<Engine> engines = {{"", LOCUS_ENGINE_BRICKS, 0, words, LOCUS_BACKEND_CUDA},
+                                         {"kept", LOCUS_ENGINE_BRICKS, 0, words, LOCUS_BACKEND_CUDA, {}, true},
                                          {"base", LOCUS_ENGINE_RELAX, 1, words, LOCUS_BACKEND_CUDA},
                                          {"compact", LOCUS_ENGINE_COMPACT, 1, words, LOCUS_BACKEND_CUDA},
                                          {"cpu", LOCUS_ENGINE_BRICKS, 0, words, LOCUS_BACKEND_CPU}};

@@ -27,6 +27,7 @@ Solver::Solver(const Volume &volume, const Engine &engine) : engine_(engine), vo
     locus_diagram_options how;
     need(locus_diagram_options_init(&how, sizeof how));
     how.engine = engine.engine;
+    how.on_device = engine.on_device ? 1 : 0;
     std::copy(engine.grain.begin(), engine.grain.end(), how.grain);
     diagram_ = make_diagram(graph_, how);
     need(locus_diagram_add_seeds(diagram_.get(), volume.seeds.data(), volume.seeds.size()));

@@ -17,6 +17,7 @@ struct Engine {
     uint32_t word_bits = LOCUS_WORD_32;
     uint32_t backend = LOCUS_BACKEND_CPU;
     std::array<uint32_t, 3> grain{8, 4, 4}; ///< of LOCUS_ENGINE_COMPACT
+    bool on_device = false;                 ///< the result stays there
 };
 
 /// A volume made ready for one engine.
