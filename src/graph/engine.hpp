@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -69,14 +70,12 @@ using Words = std::variant<std::vector<uint32_t>, std::vector<uint64_t>>;
 // Memory for `voxels` words: that of `words`, which are left empty then, where it has the size.
 template <typename Word>
 std::vector<Word> memory_of(Words &words, uint64_t voxels) {
-    std::vector<Word> memory;
     if (auto *same = std::get_if<std::vector<Word>>(&words); same != nullptr && same->size() == voxels)
-        memory.swap(*same);
-    else {
-        memory.reserve(voxels);
-        prefer_large_pages(memory.data(), voxels * sizeof(Word));
-        memory.resize(voxels);
-    }
+        return std::exchange(*same, {});
+    std::vector<Word> memory;
+    memory.reserve(voxels);
+    prefer_large_pages(memory.data(), voxels * sizeof(Word));
+    memory.resize(voxels);
     return memory;
 }
 inline bool has_memory_gone(const Words &words) {
