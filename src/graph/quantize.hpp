@@ -28,12 +28,16 @@ template <typename Word>
 using Real = std::conditional_t<sizeof(Word) == 4, float, double>;
 
 // max(1, x rounded half to even) for 0 <= x <= WordLayout::weight_limit(). Adding 1.5 * 2^23 (2^52) leaves no bits for
-// a fraction, so the addition rounds.
+// a fraction, so the addition rounds, and the last bits of the sum are the number.
 template <typename Word>
 LOCUS_HD inline Word steps(Real<Word> x) {
     constexpr Real<Word> magic = sizeof(Word) == 4 ? Real<Word>(12582912.0) : Real<Word>(6755399441055744.0);
-    const Real<Word> rounded = (x + magic) - magic;
-    return rounded > Real<Word>(1) ? static_cast<Word>(rounded) : Word{1};
+    constexpr Word magic_bits = sizeof(Word) == 4 ? Word{0x4B400000} : static_cast<Word>(0x4338000000000000);
+    const Real<Word> sum = x + magic;
+    Word bits;
+    memcpy(&bits, &sum, sizeof bits);
+    const Word rounded = bits - magic_bits;
+    return rounded > 1 ? rounded : Word{1};
 }
 
 // The operand of a voxel, NaN where it is impassable.

@@ -61,6 +61,33 @@ LOCUS_HD inline T atomic_add(T *at, T value) {
 #endif
 }
 
+// Take the next number of a counter. On a GPU the threads of a warp that come together ask once: many blocks that count
+// one by one wait for each other.
+LOCUS_HD inline uint32_t take_number(uint32_t *counter) {
+#ifdef __CUDA_ARCH__
+    const unsigned together = __activemask(), lane = threadIdx.x % 32;
+    const int first = __ffs(static_cast<int>(together)) - 1;
+    uint32_t number = 0;
+    if (lane == static_cast<unsigned>(first))
+        number = atomicAdd(counter, static_cast<unsigned>(__popc(together)));
+    return __shfl_sync(together, number, first) + static_cast<uint32_t>(__popc(together & ((1u << lane) - 1)));
+#else
+    return atomic_add(counter, 1u);
+#endif
+}
+
+// Lower *at to `value`, as above.
+LOCUS_HD inline void lower_together(uint32_t *at, uint32_t value) {
+#ifdef __CUDA_ARCH__
+    const unsigned together = __activemask();
+    const unsigned least = __reduce_min_sync(together, value);
+    if (threadIdx.x % 32 == static_cast<unsigned>(__ffs(static_cast<int>(together)) - 1))
+        atomicMin(at, least);
+#else
+    atomic_min(at, value);
+#endif
+}
+
 template <typename T>
 LOCUS_HD inline T atomic_or(T *at, T bits) {
 #ifdef __CUDA_ARCH__

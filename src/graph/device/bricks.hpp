@@ -1,7 +1,8 @@
 // The grid in bricks of 8 x 8 x 8 voxels on a device, and the rounds in which bricks are visited. In each round the
-// waiting bricks whose keys (the smallest word that would reach them) fall into the lowest bucket are visited, a block
-// each, or all that wait where there are blocks for them; what they wake waits for the next round. Nothing of this
-// passes through the host: it only launches rounds.
+// waiting bricks of the lowest buckets (of the smallest word that would reach them) are visited, a block each, or all
+// that wait where there are blocks for them; what they wake waits for the next round. Nothing of this passes through
+// the host: it only launches rounds. (Near-far lists: Davidson et al., "Work-efficient parallel GPU methods for
+// single-source shortest paths", 2014.)
 #pragma once
 
 #include "graph/device/atomics.hpp"
@@ -12,13 +13,10 @@ namespace locus::device {
 
 inline constexpr unsigned kSide = 8;
 inline constexpr unsigned kVoxels = kSide * kSide * kSide; // of a brick
-inline constexpr unsigned kHalo = kSide + 2;
-inline constexpr unsigned kCells = kHalo * kHalo * kHalo; // of a brick and its border
 
 inline constexpr uint32_t kNoBrick = std::numeric_limits<uint32_t>::max();
 
-template <typename Word>
-inline constexpr Word kNoKey = std::numeric_limits<Word>::max();
+inline constexpr uint32_t kNoBucket = std::numeric_limits<uint32_t>::max();
 
 struct Layout {
     uint64_t dims[3];   // voxels
@@ -38,6 +36,13 @@ struct Layout {
             return kNoBrick;
         return ux + bricks[0] * (uy + bricks[1] * uz);
     }
+    // The brick on a side, 0..26 with x fastest; 13 is the brick itself.
+    LOCUS_HD uint32_t beside(uint32_t brick, unsigned side) const {
+        int at[3];
+        place(brick, at);
+        return index(at[0] + static_cast<int>(side % 3) - 1, at[1] + static_cast<int>(side / 3 % 3) - 1,
+                     at[2] + static_cast<int>(side / 9) - 1);
+    }
     // Where a voxel's word and operand stand.
     LOCUS_HD uint64_t address(uint64_t x, uint64_t y, uint64_t z) const {
         const uint32_t brick =
@@ -53,22 +58,22 @@ struct Bricks {
     Word *words;
     const float *operands;
     const uint32_t *open; // the neighbours an edge leads to, by number; null where no edge is cut
+    uint32_t uncut;       // what stands there for a voxel inside the grid with all its edges
     uint32_t classes;     // 1 faces, 2 and edges, 3 and corners
     Word beyond;          // the word of a voxel that nothing has reached: just above the limit
 };
 
 // One round. Three of them take turns: while one is worked on, the next one fills, and the one after it is emptied.
-template <typename Word>
 struct Round {
-    Word least;       // the smallest key in its list
+    uint32_t least;   // the lowest bucket in its list
     uint32_t waiting; // bricks in its list
     uint32_t near;    // of them those that are visited
-    uint32_t taken;   // of those the ones that a block has begun
+    uint32_t taken;   // of those the ones that a block has begun after its first one
+    uint32_t reach;   // buckets behind the lowest one that are visited with it
 };
 
-template <typename Word>
 struct Control {
-    Round<Word> round[3];
+    Round round[3];
     uint64_t rounds; // that had work
     uint64_t visits;
     uint64_t passes;  // over all rows of a brick, in all visits
@@ -76,63 +81,81 @@ struct Control {
     uint32_t touched; // bricks in the list of those that changed
 };
 
-template <typename Word>
 struct Rounds {
-    Control<Word> *control;
-    Word *key;            // by brick; kNoKey: it waits in no list
+    Control *control;
+    uint32_t *key;        // by brick: the bucket it waits for; kNoBucket: it waits in no list
     uint32_t *waiting[3]; // the lists of the rounds; a brick stands in one list at most, and there once
-    uint32_t *near;       // what the current round visits
+    uint32_t *near;       // what the current round visits; beyond that numbers of any bricks
     uint32_t *touched;    // bricks whose words changed, null where nobody asks,
     uint32_t *is_touched; // and by brick whether it stands there
-    uint32_t width_bits;  // keys fall into buckets of 2^width_bits
+    uint32_t width_bits;  // a bucket holds 2^width_bits words
     uint32_t at_once;     // so many bricks are visited at the same time: no fewer wait for a later bucket
 
-    LOCUS_HD void wake(uint32_t brick, Word with, uint32_t round) const {
-        if (atomic_min(&key[brick], with) == kNoKey<Word>)
+    template <typename Word>
+    LOCUS_HD uint32_t bucket(Word word) const {
+        const Word number = word >> width_bits;
+        return number < kNoBucket ? static_cast<uint32_t>(number) : kNoBucket - 1;
+    }
+    LOCUS_HD void wake(uint32_t brick, uint32_t bucket, uint32_t round) const {
+        if (atomic_min(&key[brick], bucket) == kNoBucket)
             enter(brick, round);
-        atomic_min(&control->round[round].least, with);
+        lower_together(&control->round[round].least, bucket);
     }
     LOCUS_HD void enter(uint32_t brick, uint32_t round) const {
-        waiting[round][atomic_add(&control->round[round].waiting, 1u)] = brick;
+        waiting[round][take_number(&control->round[round].waiting)] = brick;
     }
     LOCUS_HD void touch(uint32_t brick) const {
         if (touched != nullptr && atomic_exchange(&is_touched[brick], 1u) == 0)
-            touched[atomic_add(&control->touched, 1u)] = brick;
+            touched[take_number(&control->touched)] = brick;
+    }
+    // Once near is known: the next round reaches farther where this one leaves blocks idle, and less far where many
+    // visits of a block follow each other.
+    LOCUS_HD void adapt(uint32_t round) const {
+        const Round &now = control->round[round];
+        uint32_t reach = now.reach;
+        if (now.near < at_once / 2)
+            reach = reach < 128 ? 2 * reach + 1 : 255;
+        else if (now.near > 2 * at_once)
+            reach /= 2;
+        control->round[(round + 1) % 3].reach = reach;
+    }
+    LOCUS_HD void count(uint64_t visits, uint64_t vain, uint64_t passes) const {
+        atomic_add(&control->visits, visits);
+        atomic_add(&control->vain, vain);
+        atomic_add(&control->passes, passes);
     }
 };
 
 // The first kernel of a round: sort its list into the bricks to visit now and those that wait on. One item more than
 // the list has empties the round after the next.
-template <typename Word>
 struct Select {
-    Rounds<Word> rounds;
+    Rounds rounds;
     uint32_t round; // 0..2
 
     LOCUS_HD uint64_t count() const { return uint64_t{rounds.control->round[round].waiting} + 1; }
     LOCUS_HD void operator()(uint64_t i) const {
-        Round<Word> &now = rounds.control->round[round];
+        Round &now = rounds.control->round[round];
         const uint32_t next = (round + 1) % 3;
         if (i >= now.waiting) {
             rounds.control->rounds += now.waiting > 0 ? 1 : 0;
-            rounds.control->round[(round + 2) % 3] = {kNoKey<Word>, 0, 0, 0};
+            rounds.control->round[(round + 2) % 3] = {kNoBucket, 0, 0, 0, 0};
             return;
         }
         const uint32_t brick = rounds.waiting[round][i];
-        const Word key = rounds.key[brick];
-        if (now.waiting <= rounds.at_once || key >> rounds.width_bits <= now.least >> rounds.width_bits) {
-            rounds.key[brick] = kNoKey<Word>;
-            rounds.near[atomic_add(&now.near, 1u)] = brick;
+        const uint32_t bucket = rounds.key[brick];
+        if (now.waiting <= rounds.at_once || bucket - now.least <= now.reach) {
+            rounds.key[brick] = kNoBucket;
+            rounds.near[take_number(&now.near)] = brick;
         } else {
             rounds.enter(brick, next);
-            atomic_min(&rounds.control->round[next].least, key);
+            lower_together(&rounds.control->round[next].least, bucket);
         }
     }
 };
 
-// Wake bricks by a list, all with the smallest key.
-template <typename Word>
+// Wake bricks by a list, all for the lowest bucket.
 struct WakeList {
-    Rounds<Word> rounds;
+    Rounds rounds;
     const uint32_t *list;
     uint64_t listed;
     uint32_t round;
@@ -172,7 +195,7 @@ struct Seeds {
 template <typename Word>
 struct Plant {
     Bricks<Word> bricks;
-    Rounds<Word> rounds;
+    Rounds rounds;
     Seeds<Word> seeds;
     uint32_t round;
 
@@ -197,7 +220,7 @@ struct Plant {
                 for (int dx = from[0]; dx <= to[0]; ++dx) {
                     const uint32_t there = bricks.layout.index(place[0] + dx, place[1] + dy, place[2] + dz);
                     if (there != kNoBrick)
-                        rounds.wake(there, word, round);
+                        rounds.wake(there, rounds.bucket(word), round);
                 }
     }
 };

@@ -74,9 +74,9 @@ int32_t run_plain(Runner &runner, const Launch &launch) {
     case Kernel::fill_words:
         return run_by_word<Fill>(runner, launch);
     case Kernel::select:
-        return run_by_word<Select>(runner, launch);
+        return runner.template items<Select>(launch);
     case Kernel::wake_list:
-        return run_by_word<WakeList>(runner, launch);
+        return runner.template items<WakeList>(launch);
     case Kernel::plant:
         return run_by_word<Plant>(runner, launch);
     case Kernel::resume:

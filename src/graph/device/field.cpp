@@ -21,7 +21,7 @@ namespace {
 constexpr uint64_t bricks_at_once = 4096; // packed on the host, and copied
 constexpr uint64_t first_rounds = 8;      // launched before the host looks whether there is more to do
 constexpr uint64_t most_rounds = 48;
-constexpr uint64_t bucket_steps = 32; // a bucket of keys is as wide as so many of the smallest weights
+constexpr uint64_t bucket_steps = 8; // a bucket of keys is as wide as so many of the smallest weights
 
 Layout layout_of(const graph::Grid &grid) {
     Layout layout{};
@@ -62,13 +62,15 @@ Field<Word>::Field(Device &device, const graph::Graph &graph) : device_(device),
     const uint64_t count = layout().count();
     words_ = device.allocate<Word>(count * kVoxels);
     operands_ = device.allocate<float>(count * kVoxels);
-    control_ = device.allocate<Control<Word>>(1);
-    key_ = device.allocate<Word>(count);
+    control_ = device.allocate<Control>(1);
+    border_ = device.copy_of(std::span<const BorderCell>(border_cells()));
+    key_ = device.allocate<uint32_t>(count);
     waiting_ = device.allocate<uint32_t>(3 * count);
     near_ = device.allocate<uint32_t>(count);
     touched_ = device.allocate<uint32_t>(count);
     is_touched_ = device.allocate<uint32_t>(count);
     tallied_ = device.allocate<Tallied>(1);
+    fill(near_, uint32_t{0});
 }
 
 template <typename Word>
@@ -84,11 +86,12 @@ Layout Field<Word>::layout() const {
 
 template <typename Word>
 Bricks<Word> Field<Word>::bricks() const {
-    return {layout(), words_.get(), operands_.get(), open_.get(), classes_of(graph_.grid()), beyond_};
+    const uint32_t classes = classes_of(graph_.grid());
+    return {layout(), words_.get(), operands_.get(), open_.get(), neighbours_within(classes), classes, beyond_};
 }
 
 template <typename Word>
-Rounds<Word> Field<Word>::rounds(bool record) const {
+Rounds Field<Word>::rounds(bool record) const {
     const uint64_t count = layout().count();
     const auto width = static_cast<unsigned>(std::bit_width(bucket_steps * graph_.smallest_weight())) - 1;
     uint32_t *const waiting = waiting_.get();
@@ -235,11 +238,11 @@ void Field<Word>::set_sources(std::span<const Source> sources) {
 // Empty lists, nothing touched.
 template <typename Word>
 void Field<Word>::begin_rounds() {
-    Control<Word> control{};
-    for (Round<Word> &round : control.round)
-        round.least = kNoKey<Word>;
-    device_.upload(control_.get(), std::span<const Control<Word>>(&control, 1));
-    fill(key_, kNoKey<Word>);
+    Control control{};
+    for (Round &round : control.round)
+        round.least = kNoBucket;
+    device_.upload(control_.get(), std::span<const Control>(&control, 1));
+    fill(key_, kNoBucket);
     fill(is_touched_, uint32_t{0});
     round_ = 0;
     work_ = {};
@@ -255,16 +258,17 @@ template <typename Word>
 void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
     const auto run = [&]<typename Rule, typename Cells>(const Rule &rule, const Launch &kernel, Cells) {
         const auto with = [&]<bool raising>(std::bool_constant<raising>) {
-            Visit<Word, Rule, Cells, raising> visit{bricks(), rounds(record), rule, seeds(), graph_.layout().label_bits,
-                                                    round_};
+            Visit<Word, Rule, Cells, raising> visit{
+                bricks(), rounds(record), rule, border_.get(), seeds(), graph_.layout().label_bits, round_, 0};
             Launch visiting = kernel;
             visiting.kernel = raising ? Kernel::raise : Kernel::lower;
             const uint64_t blocks = std::min<uint64_t>(device_.resident(visiting, visit), layout().count());
-            at_once_ = static_cast<uint32_t>(blocks);
+            at_once_ = visit.blocks = static_cast<uint32_t>(blocks);
+            visit.rounds = rounds(record);
             uint64_t batch = first_rounds;
             for (;;) {
                 for (uint64_t i = 0; i < batch; ++i) {
-                    const Select<Word> select{rounds(record), round_};
+                    const Select select{rounds(record), round_};
                     visit.round = round_;
                     device_.launch(launch(Kernel::select), select, uint64_t{layout().count()} + 1);
                     device_.launch(visiting, visit, blocks);
@@ -280,7 +284,7 @@ void Field<Word>::run_rounds(bool raise, bool record, Progress &progress) {
                     return;
                 const auto done = static_cast<double>(work_.launched);
                 progress.report(done / (done + 64));
-                batch = std::min(batch + batch / 2, most_rounds);
+                batch = std::min(batch + batch / 4, most_rounds);
             }
         };
         raise ? with(std::true_type{}) : with(std::false_type{});
@@ -448,11 +452,10 @@ Report Field<Word>::update(const Problem &problem, Words *words, Progress &progr
     report.seconds_import = watch.lap();
 
     begin_rounds();
-    device_.launch(launch(Kernel::wake_list), WakeList<Word>{rounds(true), list.get(), edited.size(), round_},
-                   edited.size());
+    device_.launch(launch(Kernel::wake_list), WakeList{rounds(true), list.get(), edited.size(), round_}, edited.size());
     progress.part(0, 0.5);
     run_rounds(true, true, progress);
-    const Resume<Word> resume{bricks(), rounds(true), taken.get(), round_};
+    const Resume<Word> resume{bricks(), rounds(true), border_.get(), taken.get(), round_};
     const Launch resuming = launch(Kernel::resume);
     device_.launch(resuming, resume, std::min<uint64_t>(device_.resident(resuming, resume), layout().count()));
     plant(true);

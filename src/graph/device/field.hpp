@@ -4,6 +4,7 @@
 
 #include "graph/device/bricks.hpp"
 #include "graph/device/device.hpp"
+#include "graph/device/halo.hpp"
 #include "graph/device/metric.hpp"
 #include "graph/device/transfer.hpp"
 #include "graph/engine.hpp"
@@ -43,7 +44,7 @@ public:
 private:
     Layout layout() const;
     Bricks<Word> bricks() const;
-    Rounds<Word> rounds(bool record) const;
+    Rounds rounds(bool record) const;
     Seeds<Word> seeds() const { return {seed_address_.get(), seed_word_.get(), sources_.size()}; }
     Launch launch(Kernel kernel) const;
     template <typename T>
@@ -73,9 +74,9 @@ private:
     Memory<Word> words_;
     Memory<float> operands_;
     Memory<uint32_t> open_;
-    Memory<Control<Word>> control_;
-    Memory<Word> key_;
-    Memory<uint32_t> waiting_, near_, touched_, is_touched_;
+    Memory<Control> control_;
+    Memory<BorderCell> border_;
+    Memory<uint32_t> key_, waiting_, near_, touched_, is_touched_;
     Memory<uint64_t> seed_address_;
     Memory<Word> seed_word_;
     Memory<Tallied> tallied_;

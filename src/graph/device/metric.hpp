@@ -59,7 +59,8 @@ template <typename Word, typename Run>
 void with_rule_of(const graph::Graph &graph, const RuleTables<Word> &tables, Run &&run) {
     const graph::Grid &grid = graph.grid();
     const auto with = [&](auto rule, const auto &factor) {
-        rule.cap = static_cast<Real<Word>>(graph.layout().infinity());
+        rule.most = static_cast<Real<Word>>(graph.layout().weight_limit());
+        rule.cap = static_cast<Word>(graph.layout().infinity());
         rule.factor[0] = 0;
         for (unsigned axes = 1; axes < 8; ++axes) {
             const unsigned position = 13 + (axes & 1) + 3 * (axes >> 1 & 1) + 9 * (axes >> 2);

@@ -14,5 +14,15 @@ LOCUS_HD constexpr unsigned number_of(int dx, int dy, int dz) {
     const int position = dx + 1 + 3 * (dy + 1) + 9 * (dz + 1);
     return static_cast<unsigned>(position > 13 ? position - 1 : position);
 }
+// The numbers of all neighbours that are at most so many axes away, as bits.
+LOCUS_HD constexpr uint32_t neighbours_within(unsigned classes) {
+    uint32_t all = 0;
+    for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (const unsigned moved = moves(axes_of(dx, dy, dz)); moved >= 1 && moved <= classes)
+                    all |= 1u << number_of(dx, dy, dz);
+    return all;
+}
 
 } // namespace locus::device

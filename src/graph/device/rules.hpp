@@ -15,10 +15,11 @@ enum class RuleKind : uint32_t { half_sum, larger, stiffness, power };
 template <typename Word>
 struct RuleBase {
     Real<Word> factor[8]; // by class
-    Real<Word> cap;       // three of them, shifted by the label bits, do not wrap a word
+    Real<Word> most;      // what a passable edge costs at most
+    Word cap;             // three of them, shifted by the label bits, do not wrap a word
 
     // Comparisons with NaN are false.
-    LOCUS_HD Word rounded(Real<Word> x) const { return graph::steps<Word>(x < cap ? x : cap); }
+    LOCUS_HD Word rounded(Real<Word> x) const { return x <= most ? graph::steps<Word>(x) : cap; }
 };
 
 // w(u, v) = q(u) + q(v)
@@ -58,7 +59,7 @@ struct PowerRule : RuleBase<Word> {
     LOCUS_HD Word operator()(float a, float b, unsigned axes) const {
         const Real<Word> sum = static_cast<Real<Word>>(a) + static_cast<Real<Word>>(b);
         if (!(sum == sum))
-            return graph::steps<Word>(this->cap);
+            return this->cap;
         return this->rounded(power(sum) * this->factor[axes]);
     }
 };

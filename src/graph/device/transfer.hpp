@@ -3,7 +3,7 @@
 
 #include "graph/device/block.hpp"
 #include "graph/device/bricks.hpp"
-#include "graph/device/visit.hpp"
+#include "graph/device/halo.hpp"
 #include "graph/quantize.hpp"
 #include "graph/reading.hpp"
 
@@ -205,20 +205,21 @@ private:
     }
 };
 
-// Wake the bricks of the list of those that changed, with the smallest word in them and on their borders; a brick that
-// sees none waits for a neighbour.
+// Wake the bricks of the list of those that changed, for the bucket of the smallest word in them and on their borders;
+// a brick that sees none waits for a neighbour.
 template <typename Word>
 struct Resume {
-    static constexpr unsigned threads = 256;
+    static constexpr unsigned threads = BorderCell::holders;
     struct Shared {
-        Word least;
+        uint32_t least; // bucket
         uint32_t ticket;
-        int place[3];
+        uint32_t around[27];
     };
     struct Local {};
 
     Bricks<Word> bricks;
-    Rounds<Word> rounds;
+    Rounds rounds;
+    const BorderCell *border;
     uint32_t *taken; // 0 before
     uint32_t round;
 
@@ -234,7 +235,7 @@ struct Resume {
                 break;
             block.each([&](unsigned thread, Local &) { look(s, thread); });
             block.each([&](unsigned thread, Local &) {
-                if (thread == 0 && s.least < bricks.beyond)
+                if (thread == 0 && s.least != kNoBucket)
                     rounds.wake(rounds.touched[s.ticket], s.least, round);
             });
         }
@@ -243,23 +244,27 @@ struct Resume {
 private:
     LOCUS_HD void begin(Shared &s) const {
         s.ticket = atomic_add(taken, 1u);
-        s.least = kNoKey<Word>;
+        s.least = kNoBucket;
         if (s.ticket < rounds.control->touched)
-            bricks.layout.place(rounds.touched[s.ticket], s.place);
+            for (unsigned side = 0; side < 27; ++side)
+                s.around[side] = bricks.layout.beside(rounds.touched[s.ticket], side);
     }
     LOCUS_HD void look(Shared &s, unsigned thread) const {
-        Word least = kNoKey<Word>;
-        for (unsigned cell = thread; cell < kCells; cell += threads) {
-            const CellPlace at(cell);
-            const uint32_t brick =
-                bricks.layout.index(s.place[0] + at.side[0], s.place[1] + at.side[1], s.place[2] + at.side[2]);
-            if (brick == kNoBrick)
-                continue;
-            const Word word = bricks.words[uint64_t{brick} * kVoxels + at.voxel];
-            least = word < least ? word : least;
+        Word least = bricks.beyond;
+        for (unsigned voxel = thread; voxel < kVoxels; voxel += threads)
+            see(s.around[13], voxel, least);
+        for (unsigned kind = 0; kind < BorderCell::kinds; ++kind) {
+            const BorderCell at = border[kind * BorderCell::holders + thread];
+            see(s.around[at.side], at.voxel, least);
         }
-        if (least != kNoKey<Word>)
-            atomic_min(&s.least, least);
+        if (least < bricks.beyond)
+            atomic_min(&s.least, rounds.bucket(least));
+    }
+    LOCUS_HD void see(uint32_t brick, unsigned voxel, Word &least) const {
+        if (brick == kNoBrick)
+            return;
+        const Word word = bricks.words[uint64_t{brick} * kVoxels + voxel];
+        least = word < least ? word : least;
     }
 };
 
