@@ -42,6 +42,8 @@ int32_t describe(int device, Machine *machine, Message *why) {
     machine->memory = properties.totalGlobalMem;
     machine->multiprocessors = static_cast<uint32_t>(properties.multiProcessorCount);
     machine->compute = static_cast<uint32_t>(10 * properties.major + properties.minor);
+    machine->block_memory = properties.sharedMemPerBlockOptin;
+    machine->multiprocessor_memory = properties.sharedMemPerMultiprocessor;
     if (machine->compute < 80) {
         std::snprintf(why->text, sizeof why->text, "%s has compute capability %d.%d: 8.0 is the least", properties.name,
                       properties.major, properties.minor);
@@ -193,6 +195,7 @@ int32_t run(Queue *queue, const Launch *launch, uint64_t *resident, Message *why
     case Kernel::relax:
         return run_relax(*queue, *launch, why, resident);
     case Kernel::sibson:
+    case Kernel::sibson_large:
         return run_sibson(*queue, *launch, why, resident);
     default:
         return run_plain(*queue, *launch, why, resident);

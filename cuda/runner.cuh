@@ -19,12 +19,15 @@ __global__ void __launch_bounds__(kItemThreads) item_kernel(const __grid_constan
         body(i);
 }
 
+extern __shared__ __align__(16) unsigned char block_memory[];
+
 template <typename Body>
 struct Block {
     typename Body::Shared &shared;
     typename Body::Local &local;
 
     __device__ uint64_t index() const { return blockIdx.x; }
+    __device__ unsigned char *memory() const { return block_memory; }
     template <typename Phase>
     __device__ void each(Phase &&phase) {
         phase(threadIdx.x, local);
@@ -70,7 +73,7 @@ struct Runner {
             *resident = blocks;
             return LOCUS_OK;
         }
-        return start(item_kernel<Body>, blocks, kItemThreads, *body);
+        return start(item_kernel<Body>, blocks, kItemThreads, 0, *body);
     }
 
     template <typename Body>
@@ -78,23 +81,26 @@ struct Runner {
         Body *body = nullptr;
         if (const int32_t status = take(launch, body); status != LOCUS_OK)
             return status;
+        if (launch.memory > 0)
+            LOCUS_CUDA(cudaFuncSetAttribute(block_kernel<Body>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                            static_cast<int>(launch.memory)));
         if (resident != nullptr) {
             int per_multiprocessor = 0;
             LOCUS_CUDA(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_multiprocessor, block_kernel<Body>,
-                                                                     static_cast<int>(Body::threads), 0));
+                                                                     static_cast<int>(Body::threads), launch.memory));
             const int blocks = per_multiprocessor * queue.multiprocessors;
             *resident = blocks > 0 ? static_cast<uint64_t>(blocks) : 1;
             return LOCUS_OK;
         }
-        return start(block_kernel<Body>, launch.items, Body::threads, *body);
+        return start(block_kernel<Body>, launch.items, Body::threads, launch.memory, *body);
     }
 
 private:
     template <typename Body>
-    int32_t start(void (*kernel)(Body), uint64_t blocks, unsigned threads, Body &body) {
+    int32_t start(void (*kernel)(Body), uint64_t blocks, unsigned threads, uint64_t memory, Body &body) {
         void *arguments[] = {&body};
         return report(cudaLaunchKernel(reinterpret_cast<const void *>(kernel), dim3(static_cast<unsigned>(blocks)),
-                                       dim3(threads), arguments, 0, queue.stream),
+                                       dim3(threads), arguments, memory, queue.stream),
                       "cudaLaunchKernel", why);
     }
 };

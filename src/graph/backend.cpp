@@ -41,6 +41,9 @@ public:
         kept_ = false;
     }
     void write(const Reading &reading, void *to) override { engine_->write(reading, to); }
+    bool natural_rows(const NaturalJob &job, std::vector<RowPile> &piles, Progress &progress) override {
+        return engine_->natural_rows(job, piles, progress);
+    }
 
 private:
     template <typename Run>
@@ -82,6 +85,9 @@ std::vector<RowPile> natural_rows_on_backend(const NaturalJob &job, Progress &pr
     if (graph.backend() != LOCUS_BACKEND_CUDA || job.method != LOCUS_METHOD_SIBSON)
         return natural_rows(job, progress);
     try {
+        std::vector<RowPile> piles;
+        if (job.engine != nullptr && job.engine->natural_rows(job, piles, progress))
+            return piles;
         device::Device gpu(*device::find().table, job.stream);
         return device::sibson_rows(gpu, job, progress);
     } catch (const Error &error) {

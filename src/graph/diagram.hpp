@@ -31,6 +31,7 @@ public:
 
     const Graph &graph() const { return *graph_; }
     void *stream() const { return options_.stream; }
+    Engine &engine() const { return *engine_; }
     const std::vector<Seed> &seeds() const { return seeds_; } // by slot
 
     // Changes of the seeds; each either succeeds or changes nothing.

@@ -99,6 +99,9 @@ Change change_between(uint64_t voxels, const Place &first, const Place &last) {
     return change;
 }
 
+struct NaturalJob;
+struct RowPile;
+
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -116,6 +119,9 @@ public:
     // Write what is asked into memory of the device that holds the words of the latest solve or update, and wait for it
     // unless the stream is the caller's. Throws where there is no such device.
     virtual void write(const Reading &reading, void *to);
+    // Rows of weights of this engine's latest solve or update, whose words are the job's, from what it keeps of it;
+    // false where it cannot make them. At the same time as others of the same.
+    virtual bool natural_rows(const NaturalJob &, std::vector<RowPile> &, Progress &) { return false; }
     // Memory kept from one call to the next.
     virtual size_t bytes() const { return 0; }
 };

@@ -85,11 +85,12 @@ void on_threads(Share &&share) {
 template <typename Body>
 class Block {
 public:
-    Block(uint64_t index, uint64_t seed)
-        : shared(*fresh<typename Body::Shared>(memory_)), index_(index), random_(seed) {
+    Block(uint64_t index, uint64_t memory, uint64_t seed)
+        : shared(*fresh<typename Body::Shared>(shared_)), index_(index), memory_(memory), random_(seed) {
         std::memset(static_cast<void *>(locals_), 0xA5, sizeof locals_);
     }
     uint64_t index() const { return index_; }
+    unsigned char *memory() { return memory_.get(); }
     template <typename Phase>
     void each(Phase &&phase) {
         const Order order(Body::threads, random_);
@@ -105,7 +106,7 @@ private:
         std::memset(memory, 0xA5, sizeof(Shared));
         return reinterpret_cast<Shared *>(memory);
     }
-    alignas(64) unsigned char memory_[sizeof(typename Body::Shared)];
+    alignas(64) unsigned char shared_[sizeof(typename Body::Shared)];
     typename Body::Local locals_[Body::threads];
 
 public:
@@ -113,6 +114,7 @@ public:
 
 private:
     uint64_t index_;
+    BlockMemory memory_;
     std::mt19937_64 random_;
 };
 
@@ -146,17 +148,19 @@ struct Runner {
         if (const int32_t status = check<Body>(launch); status != LOCUS_OK || asked)
             return status;
         const Body body = *static_cast<const Body *>(launch.body);
+        if (launch.memory > settings().block_memory)
+            return say(why, LOCUS_E_INTERNAL, "a block wants more memory than it may have");
         const Order order(launch.items, queue.random);
         const uint64_t seed = queue.random();
         std::atomic<bool> together = true;
         on_threads([&](uint64_t rank, uint64_t of) {
             for (uint64_t i = rank; i < launch.items; i += of) {
                 if (settings().lanes > 0) {
-                    if (!run_lanes(body, order[i], settings().lanes, seed + i))
+                    if (!run_lanes(body, order[i], settings().lanes, seed + i, launch.memory))
                         together = false;
                     continue;
                 }
-                const auto block = std::make_unique<Block<Body>>(order[i], seed + i);
+                const auto block = std::make_unique<Block<Body>>(order[i], launch.memory, seed + i);
                 body(*block);
             }
         });
@@ -173,6 +177,7 @@ int32_t run(Runner &runner, const Launch &launch) {
     case Kernel::relax:
         return run_relax(runner, launch);
     case Kernel::sibson:
+    case Kernel::sibson_large:
         return run_sibson(runner, launch);
     default:
         return run_plain(runner, launch);
@@ -184,7 +189,7 @@ int32_t open(Queue **queue, Machine *machine, Message *why) {
     if (fails(why, status))
         return status;
     *queue = new Queue{std::mt19937_64(settings().seed), nullptr};
-    *machine = Machine{"emulated", settings().memory, 1, 0};
+    *machine = Machine{"emulated", settings().memory, 1, 0, settings().block_memory, 2 * settings().block_memory};
     return LOCUS_OK;
 }
 

@@ -15,7 +15,8 @@ struct Settings {
     void *stream = nullptr;     // what every kernel must be put on, where it is not null
     bool keeps_failing = false; // all calls after that one
     int32_t failure = LOCUS_E_DEVICE;
-    uint64_t memory = UINT64_MAX; // bytes
+    uint64_t memory = UINT64_MAX;     // bytes
+    uint64_t block_memory = 96 << 10; // bytes that blocks may share
 };
 
 // What was done since the counters were set to zero.

@@ -46,18 +46,34 @@ private:
     std::array<std::vector<const void *>, 2> at_;
 };
 
+// What Launch::memory asks for: rubbish at first.
+class BlockMemory {
+public:
+    explicit BlockMemory(uint64_t bytes) : bytes_(bytes / sizeof bytes_[0] + 1) {
+        std::memset(bytes_.data(), 0xA5, bytes_.size() * sizeof bytes_[0]);
+    }
+    unsigned char *get() { return bytes_[0].data; }
+
+private:
+    struct alignas(16) Piece {
+        unsigned char data[16];
+    };
+    std::vector<Piece> bytes_;
+};
+
 template <typename Body>
 class Lane {
 public:
-    Lane(Meeting &meeting, std::atomic<bool> &apart, typename Body::Shared &memory, uint64_t index, unsigned number,
-         std::vector<unsigned> threads)
-        : shared(memory), meeting_(meeting), apart_(apart), index_(index), number_(number),
+    Lane(Meeting &meeting, std::atomic<bool> &apart, typename Body::Shared &shared_by_all, BlockMemory &memory,
+         uint64_t index, unsigned number, std::vector<unsigned> threads)
+        : shared(shared_by_all), meeting_(meeting), apart_(apart), memory_(memory), index_(index), number_(number),
           threads_(std::move(threads)), locals_(threads_.size()) {
         std::memset(static_cast<void *>(locals_.data()), 0xA5, locals_.size() * sizeof locals_[0]);
     }
 
     typename Body::Shared &shared;
     uint64_t index() const { return index_; }
+    unsigned char *memory() { return memory_.get(); }
     unsigned number() const { return number_; } // for tests of the lanes: a GPU's blocks have none
     template <typename Phase>
     void each(Phase &&phase) {
@@ -84,6 +100,7 @@ private:
 
     Meeting &meeting_;
     std::atomic<bool> &apart_;
+    BlockMemory &memory_;
     uint64_t index_, turn_ = 0;
     unsigned number_;
     std::vector<unsigned> threads_;
@@ -92,13 +109,14 @@ private:
 
 // Run one block, its threads in an order that `seed` tells. Returns whether the lanes always came to the same barriers.
 template <typename Body>
-bool run_lanes(const Body &body, uint64_t index, unsigned lanes, uint64_t seed) {
+bool run_lanes(const Body &body, uint64_t index, unsigned lanes, uint64_t seed, uint64_t bytes = 0) {
     struct alignas(64) Memory {
         unsigned char bytes[sizeof(typename Body::Shared)];
     };
     const auto memory = std::make_unique<Memory>();
     std::memset(memory->bytes, 0xA5, sizeof memory->bytes);
     auto &shared = *reinterpret_cast<typename Body::Shared *>(memory->bytes);
+    BlockMemory more(bytes);
     std::vector<unsigned> order(Body::threads);
     std::iota(order.begin(), order.end(), 0u);
     std::shuffle(order.begin(), order.end(), std::mt19937_64(seed));
@@ -110,7 +128,7 @@ bool run_lanes(const Body &body, uint64_t index, unsigned lanes, uint64_t seed) 
         for (size_t i = number; i < order.size(); i += lanes)
             threads.push_back(order[i]);
         running.emplace_back([&, number, threads] {
-            Lane<Body> lane(meeting, apart, shared, index, number, threads);
+            Lane<Body> lane(meeting, apart, shared, more, index, number, threads);
             body(lane);
             lane.leave();
         });

@@ -106,6 +106,17 @@ LOCUS_HD inline T atomic_exchange(T *at, T value) {
 #endif
 }
 
+// Put `value` where `expected` is; returns what was there.
+template <typename T>
+LOCUS_HD inline T atomic_replace(T *at, T expected, T value) {
+#ifdef __CUDA_ARCH__
+    return static_cast<T>(atomicCAS(native(at), static_cast<Native<T>>(expected), static_cast<Native<T>>(value)));
+#else
+    std::atomic_ref<T>(*at).compare_exchange_strong(expected, value, std::memory_order_relaxed);
+    return expected;
+#endif
+}
+
 // A load or store of memory that others write meanwhile: whole, and not from a cache of one multiprocessor alone.
 template <typename T>
 LOCUS_HD inline T load_shared(const T *at) {

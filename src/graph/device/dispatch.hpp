@@ -61,7 +61,8 @@ int32_t run_relax(Runner &runner, const Launch &launch) {
 template <typename Runner>
 int32_t run_sibson(Runner &runner, const Launch &launch) {
     return with_rule(launch, [&]<typename Word, typename Rule>(Word, Rule) {
-        return runner.template blocks<Sibson<Word, Rule>>(launch);
+        return launch.kernel == Kernel::sibson ? runner.template blocks<Sibson<Word, Rule, false>>(launch)
+                                               : runner.template blocks<Sibson<Word, Rule, true>>(launch);
     });
 }
 

@@ -215,6 +215,26 @@ void Field<Word>::import(std::span<const uint32_t> list) {
 }
 
 template <typename Word>
+void Field<Word>::take(const Words &words) {
+    solved_ = false;
+    import();
+    beyond_ = static_cast<Word>(graph_.layout().unreached());
+    const auto &dense = std::get<std::vector<Word>>(words);
+    const Layout bricks = layout();
+    std::vector<Word> packed;
+    for (uint64_t first = 0; first < bricks.count(); first += bricks_at_once) {
+        const uint64_t count = std::min<uint64_t>(bricks_at_once, bricks.count() - first);
+        packed.assign(count * kVoxels, beyond_);
+        parallel_for(graph_.threads(), count, 64, [&](uint64_t begin, uint64_t end) {
+            for (uint64_t i = begin; i < end; ++i)
+                for_voxels(graph_.grid(), bricks, static_cast<uint32_t>(first + i),
+                           [&](uint64_t voxel, uint64_t position) { packed[i * kVoxels + position] = dense[voxel]; });
+        });
+        device_.upload(words_.get() + first * kVoxels, std::span<const Word>(packed));
+    }
+}
+
+template <typename Word>
 void Field<Word>::set_sources(std::span<const Source> sources) {
     const Layout bricks = layout();
     std::vector<std::pair<uint64_t, Word>> seeds;

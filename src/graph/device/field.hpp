@@ -37,13 +37,19 @@ public:
     void give(graph::Words &words);
     void write(const graph::Reading &reading, void *to);
 
+    // Words of a solve elsewhere, of the graph as it is. Only an update asks for more than words.
+    void take(const graph::Words &words);
+
+    // What is on the device: the graph as imported, the words of the latest solve, update or take().
+    Bricks<Word> bricks() const;
+    const RuleTables<Word> &tables() const { return tables_; }
+
     uint64_t bytes() const;
     const Work &work() const { return work_; }
     uint64_t bricks_in_grid() const { return key_.count(); }
 
 private:
     Layout layout() const;
-    Bricks<Word> bricks() const;
     Rounds rounds(bool record) const;
     Seeds<Word> seeds() const { return {seed_address_.get(), seed_word_.get(), sources_.size()}; }
     Launch launch(Kernel kernel) const;

@@ -36,6 +36,7 @@ enum class Kernel : uint32_t {
     sow,
     // graph/device/sibson.hpp
     sibson,
+    sibson_large,
 };
 
 struct Launch {
@@ -45,6 +46,7 @@ struct Launch {
     uint32_t simple;    // lower, raise: equal spacings
     const void *body;
     uint64_t body_bytes;
+    uint64_t memory; // by block: bytes of shared memory beside the body's own
     uint64_t items; // by index: no more than these; by block: blocks to launch, as many as Table::resident says at most
 };
 
@@ -52,7 +54,9 @@ struct Machine {
     char name[256];
     uint64_t memory; // bytes
     uint32_t multiprocessors;
-    uint32_t compute; // compute capability, 90 for 9.0
+    uint32_t compute;      // compute capability, 90 for 9.0
+    uint64_t block_memory; // shared memory that a block may have, and a multiprocessor has, in bytes
+    uint64_t multiprocessor_memory;
 };
 
 struct Message {

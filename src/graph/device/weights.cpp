@@ -1,230 +1,256 @@
 #include "graph/device/weights.hpp"
 
-#include "graph/device/metric.hpp"
 #include "graph/device/sibson.hpp"
-#include "graph/device/transfer.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace locus::device {
 namespace {
 
 using graph::Graph;
 using graph::NaturalJob;
-using graph::RawShare;
 using graph::RowPile;
+using graph::Share;
 
-constexpr uint64_t first_margin = 12; // voxels around a query that its window holds, until that proves too small
-constexpr uint64_t queries_at_once = 1 << 16; // of a launch
-constexpr uint64_t labels_expected = 16;      // that a query steals from, on average
+constexpr uint64_t queries_at_once = 1 << 17; // of a launch
+constexpr uint64_t entries_expected = 16;     // of a row, on average
+constexpr uint32_t first_margin = 8;          // voxels around a block's first query that its window holds
+constexpr uint64_t most_taken = 32;           // queries that a block takes, neighbours mostly
+constexpr uint64_t first_large_room = 1 << 17;
+constexpr uint64_t small_slots = 256, first_large_slots = 1 << 12;
+constexpr uint64_t cells_of_large_front = 4;
+constexpr uint64_t least_room = 512, cells_of_front = 20; // a cell of a front for so many of a small window
+constexpr uint64_t block_overhead = 512;                  // shared memory of a block that is not its window's
 
 struct Query {
-    uint64_t voxel;
-    uint64_t row;
+    uint64_t voxel, row;
+};
+
+// How windows are held.
+struct Form {
+    bool large = false;
+    uint64_t room = 0, front = 0, slots = 0; // cells of a window, of a front, labels
+    uint64_t memory = 0;                     // bytes that a block shares
 };
 
 template <typename Word>
 class Batches {
 public:
-    Batches(Device &device, const NaturalJob &job)
-        : device_(device), job_(job), graph_(job.field.graph()), tables_(device, graph_) {
-        import();
-        all_windows_ = *std::max_element(graph_.grid().dims().begin(), graph_.grid().dims().end());
+    Batches(Device &device, const Field<Word> &field, Memory<uint64_t> &kept, const NaturalJob &job)
+        : device_(device), field_(field), kept_(kept), job_(job), graph_(job.field.graph()), whole_(1) {
+        for (const uint64_t dim : graph_.grid().dims())
+            whole_ = std::min<uint64_t>(whole_ * (dim + 2), uint64_t{1} << 40);
     }
 
     std::vector<RowPile> run(Progress &progress) {
-        std::vector<Query> left = searched();
+        std::vector<Query> left = queries();
         const auto all = static_cast<double>(left.size());
-        uint64_t margin = first_margin;
-        with_rule_of<Word>(graph_, tables_, [&](const auto &rule, const Launch &launch) {
-            while (!left.empty()) {
-                make_scratch(rule, launch, margin, left.size());
-                std::vector<Query> too_small;
+        with_rule_of<Word>(graph_, field_.tables(), [&](const auto &rule, const Launch &launch) {
+            Form form;
+            for (bool first = true; !left.empty(); first = false) {
+                form = first ? first_form() : next_form(form);
+                prepare(rule, launch, form, left.size());
+                std::vector<Query> failed;
                 while (!left.empty()) {
-                    answer(rule, launch, margin, left, too_small);
-                    progress.report(1 - static_cast<double>(left.size() + too_small.size()) / all);
+                    form.large ? answer<true>(rule, launch, form, left, failed)
+                               : answer<false>(rule, launch, form, left, failed);
+                    progress.report(1 - static_cast<double>(left.size() + failed.size()) / all);
                 }
-                left = std::move(too_small);
-                margin += margin / 2;
+                std::reverse(failed.begin(), failed.end());
+                left = std::move(failed);
             }
         });
-        std::vector<RowPile> piles;
-        piles.push_back(std::move(pile_));
-        return piles;
+        return std::move(piles_);
     }
 
 private:
-    // The field as it was solved, once for all queries.
-    void import() {
-        const uint64_t voxels = graph_.grid().voxels();
-        const Operands operands(graph_);
-        std::vector<float> values(voxels);
-        for (uint64_t v = 0; v < voxels; ++v) {
-            values[v] = operands(v);
-            if (job_.field.reached(v))
-                labels_ = std::max<uint64_t>(labels_, job_.field.label(v) + uint64_t{1});
-        }
-        operands_ = device_.copy_of(std::span<const float>(values));
-        words_ = device_.copy_of(std::span<const Word>(std::get<std::vector<Word>>(job_.field.words())));
-        if (graph_.cuts() == nullptr)
-            return;
-        std::vector<uint32_t> open(voxels);
-        for (uint64_t v = 0; v < voxels; ++v)
-            open[v] = graph_.open_edges(v);
-        open_ = device_.copy_of(std::span<const uint32_t>(open));
-    }
-
-    // The queries that can steal something; the rows of the others are known.
-    std::vector<Query> searched() {
+    // They are taken from the end.
+    std::vector<Query> queries() const {
         std::vector<Query> queries;
-        const auto take = [&](uint64_t row) {
-            const uint64_t voxel = job_.voxels[row];
-            if (job_.field.reached(voxel) && job_.field.distance(voxel) != 0)
-                return queries.push_back({voxel, row});
-            row_.clear();
-            if (job_.field.reached(voxel))
-                row_.push_back({job_.field.label(voxel), 1});
-            close(row);
-        };
+        queries.reserve(job_.rows.empty() ? job_.voxels.size() : job_.rows.size());
         if (job_.rows.empty())
-            for (uint64_t row = 0; row < job_.voxels.size(); ++row)
-                take(row);
+            for (uint64_t row = job_.voxels.size(); row-- > 0;)
+                queries.push_back({job_.voxels[row], row});
         else
-            std::for_each(job_.rows.begin(), job_.rows.end(), take);
-        std::reverse(queries.begin(), queries.end()); // they are taken from the end
+            for (size_t i = job_.rows.size(); i-- > 0;)
+                queries.push_back({job_.voxels[job_.rows[i]], job_.rows[i]});
         return queries;
     }
-    void close(uint64_t row) {
-        finish_row(row_, job_.most, pile_.shares);
-        pile_.close(row);
-    }
 
-    template <typename T>
-    void fill(const Memory<T> &to, T value) {
-        Launch launch{};
-        launch.kernel = Kernel::fill_words;
-        launch.word_bits = 8 * sizeof(T);
-        device_.launch(launch, Fill<T>{to.get(), value, to.count()}, to.count());
+    // Windows in shared memory, as large as they can be there.
+    Form first_form() const {
+        if (uint64_t{graph_.grid().voxels()} > UINT32_MAX / 8) // the bricks of a thin grid hold up to 64 times as many
+            if (field_.bricks_in_grid() > UINT32_MAX / kVoxels)
+                return large_form(first_large_room, first_large_slots);
+        const Form form = small_form(device_.machine().block_memory);
+        return form.room != 0 ? form : large_form(first_large_room, first_large_slots);
     }
-
-    template <typename Rule>
-    Sibson<Word, Rule> body(const Rule &rule) const {
-        Sibson<Word, Rule> sibson{};
-        const graph::Grid &grid = graph_.grid();
-        sibson.graph = {{grid.nx(), grid.ny(), grid.nz()}, operands_.get(), open_.get(), classes_of(grid)};
-        sibson.rule = rule;
-        sibson.words = words_.get();
-        sibson.unreached = static_cast<Word>(graph_.layout().unreached());
-        sibson.label_bits = graph_.layout().label_bits;
-        return sibson;
+    Form next_form(const Form &form) const {
+        if (!form.large)
+            return large_form(first_large_room, first_large_slots);
+        if (form.room == whole_ && form.slots >= labels())
+            fail(LOCUS_E_INTERNAL, "a query found no place in a window of the whole grid");
+        return large_form(4 * form.room, 8 * form.slots);
+    }
+    Form small_form(uint64_t memory) const {
+        using Body = Sibson<Word, HalfSumRule<Word>, false>;
+        Form form;
+        const uint64_t fixed = block_overhead + small_slots * 2 * sizeof(uint32_t);
+        const uint64_t of_front = sizeof(typename Body::Front) + 2 * sizeof(typename Body::Cell);
+        if (memory < fixed + small_slots * of_front + least_room * sizeof(Word))
+            return form;
+        form.slots = small_slots;
+        form.front = std::max((memory - fixed) / (cells_of_front * sizeof(Word) + of_front), small_slots);
+        form.room = std::min({(memory - fixed - form.front * of_front) / sizeof(Word), whole_, uint64_t{UINT16_MAX}});
+        form.memory = Body::bytes(form.room, form.front, form.slots);
+        return form;
+    }
+    uint64_t labels() const { return graph_.layout().labels(); }
+    Form large_form(uint64_t room, uint64_t slots) const {
+        Form form;
+        form.large = true;
+        form.room = std::min(room, whole_);
+        form.slots = std::min(slots, 2 * labels());
+        form.front = std::max(form.room == whole_ ? whole_ : form.room / cells_of_large_front, form.slots);
+        return form;
     }
 
     // Scratch memory for as many blocks as run at the same time, have a query each and the budget allows.
     template <typename Rule>
-    void make_scratch(const Rule &rule, Launch launch, uint64_t margin, uint64_t queries) {
-        uint64_t window = 1;
-        for (const uint64_t dim : graph_.grid().dims())
-            window *= std::min(dim, 2 * margin + 1);
-        const uint64_t bytes = window * (sizeof(Word) + 4 * sizeof(uint32_t)) + labels_ * 2 * sizeof(uint32_t);
-        if (bytes > job_.bytes || window > UINT32_MAX)
+    void prepare(const Rule &rule, Launch launch, const Form &form, uint64_t queries) {
+        scratch_ = {};
+        if (!form.large) {
+            launch.kernel = Kernel::sibson;
+            launch.memory = form.memory;
+            blocks_ = device_.resident(launch, body<false>(rule, form));
+            return;
+        }
+        launch.kernel = Kernel::sibson_large;
+        const uint64_t bytes = Sibson<Word, Rule, true>::bytes(form.room, form.front, form.slots);
+        if (bytes > job_.bytes || form.room > UINT32_MAX)
             fail(LOCUS_E_MEMORY, "batch_bytes is ", job_.bytes, ": a query on the GPU needs ", bytes);
-        launch.kernel = Kernel::sibson;
-        blocks_ = std::min({device_.resident(launch, body(rule)), job_.bytes / bytes, queries});
-        reach_ = {};
-        cells_ = {};
-        by_label_ = {};
-        reach_ = device_.allocate<Word>(blocks_ * window);
-        cells_ = device_.allocate<uint32_t>(blocks_ * window * 4);
-        by_label_ = device_.allocate<uint32_t>(blocks_ * labels_ * 2);
-        const uint64_t all = blocks_ * window;
-        scratch_ = {reach_.get(),
-                    cells_.get(),
-                    cells_.get() + all,
-                    cells_.get() + 3 * all,
-                    by_label_.get(),
-                    by_label_.get() + blocks_ * labels_,
-                    window,
-                    labels_};
-        fill(reach_, Sibson<Word, Rule>::kFar);
-        fill(cells_, uint32_t{0});
-        fill(by_label_, uint32_t{0});
+        blocks_ = std::min({device_.resident(launch, body<true>(rule, form)), job_.bytes / bytes, queries});
+        scratch_ = device_.allocate<uint64_t>(blocks_ * bytes / sizeof(uint64_t));
     }
 
-    // One launch: from the end of `left`; those whose windows were too small go to `too_small`, those whose counts
-    // found no room back to `left`.
-    template <typename Rule>
-    void answer(const Rule &rule, Launch launch, uint64_t margin, std::vector<Query> &left,
-                std::vector<Query> &too_small) {
+    template <bool large, typename Rule>
+    Sibson<Word, Rule, large> body(const Rule &rule, const Form &form) const {
+        Sibson<Word, Rule, large> sibson{};
+        sibson.bricks = field_.bricks();
+        sibson.rule = rule;
+        sibson.least = static_cast<Word>(graph_.smallest_weight());
+        sibson.label_bits = graph_.layout().label_bits;
+        sibson.most = job_.most;
+        sibson.margin = first_margin;
+        sibson.room = static_cast<uint32_t>(form.room);
+        sibson.front = static_cast<uint32_t>(form.front);
+        sibson.slots = static_cast<uint32_t>(form.slots);
+        sibson.scratch = reinterpret_cast<unsigned char *>(scratch_.get());
+        return sibson;
+    }
+
+    // One launch: from the end of `left`; those that found no place go to `failed`, those whose rows found none back
+    // to `left`.
+    template <bool large, typename Rule>
+    void answer(const Rule &rule, Launch launch, const Form &form, std::vector<Query> &left,
+                std::vector<Query> &failed) {
         const uint64_t count = std::min<uint64_t>(left.size(), queries_at_once);
-        const std::vector<Query> batch(left.end() - static_cast<std::ptrdiff_t>(count), left.end());
-        left.resize(left.size() - count);
-        const uint64_t room = std::max(count * labels_expected, labels_);
-        std::vector<uint64_t> voxels;
-        for (const Query &query : batch)
-            voxels.push_back(query.voxel);
-        const auto queries = device_.copy_of(std::span<const uint64_t>(voxels));
-        const auto answers = device_.allocate<Answer>(count);
-        const auto stolen = device_.allocate<Stolen>(room);
-        const std::array<uint64_t, 2> zeros{};
-        const auto counters = device_.copy_of(std::span<const uint64_t>(zeros));
+        const uint64_t room = std::max(count * entries_expected, form.slots);
+        // Queries and counters; answers; rows.
+        static_assert(sizeof(Answer) == 2 * sizeof(uint64_t) && sizeof(Share) == sizeof(uint64_t));
+        std::vector<uint64_t> asked;
+        asked.reserve(count + 2);
+        for (uint64_t i = 0; i < count; ++i)
+            asked.push_back(left[left.size() - 1 - i].voxel);
+        asked.resize(count + 2, 0);
+        if (kept_.count() < asked.size() + 2 * count + room) {
+            kept_ = {};
+            kept_ = device_.allocate<uint64_t>(asked.size() + 2 * count + room);
+        }
+        device_.upload(kept_.get(), std::span<const uint64_t>(asked));
+        auto *const answers = reinterpret_cast<Answer *>(kept_.get() + asked.size());
+        auto *const rows = reinterpret_cast<Share *>(answers + count);
 
-        Sibson<Word, Rule> sibson = body(rule);
-        sibson.queries = queries.get();
+        Sibson<Word, Rule, large> sibson = body<large>(rule, form);
+        const uint64_t blocks = std::min(blocks_, count);
+        sibson.queries = kept_.get();
         sibson.query_count = static_cast<uint32_t>(count);
-        sibson.taken = reinterpret_cast<uint32_t *>(counters.get());
-        sibson.margin = std::min(margin, all_windows_);
-        sibson.scratch = scratch_;
-        sibson.answers = answers.get();
-        sibson.counts = stolen.get();
-        sibson.counted = counters.get() + 1;
-        sibson.room = room;
-        launch.kernel = Kernel::sibson;
-        device_.launch(launch, sibson, std::min(blocks_, count));
+        sibson.at_once = static_cast<uint32_t>(std::clamp<uint64_t>(count / (16 * blocks), 1, most_taken));
+        sibson.taken = reinterpret_cast<uint32_t *>(kept_.get() + count);
+        sibson.counted = kept_.get() + count + 1;
+        sibson.answers = answers;
+        sibson.rows = rows;
+        sibson.counted_room = room;
+        launch.kernel = large ? Kernel::sibson_large : Kernel::sibson;
+        launch.memory = form.memory;
+        device_.launch(launch, sibson, blocks);
+        take(count, answers, rows, left, failed);
+    }
 
-        std::vector<Answer> given(count);
-        device_.download(std::span<Answer>(given), answers.get());
+    void take(uint64_t count, const Answer *answers, const Share *rows, std::vector<Query> &left,
+              std::vector<Query> &failed) {
+        answers_.resize(count);
+        device_.download(std::span<Answer>(answers_), answers);
         uint64_t counted = 0;
-        for (const Answer &answer : given)
+        for (const Answer &answer : answers_)
             if (answer.length < Answer::no_room)
                 counted = std::max(counted, answer.first + answer.length);
-        std::vector<Stolen> counts(counted);
-        device_.download(std::span<Stolen>(counts), stolen.get());
-        for (uint64_t i = 0; i < count; ++i) {
-            if (given[i].length >= Answer::no_room) {
-                (given[i].length == Answer::no_room ? left : too_small).push_back(batch[i]);
+        RowPile &pile = piles_.emplace_back();
+        pile.shares.resize(counted);
+        device_.download(std::span<Share>(pile.shares), rows);
+        for (auto *each : {&pile.place, &pile.begin, &pile.end})
+            each->reserve(count);
+        std::vector<Query> again;
+        for (const Answer &answer : answers_) {
+            const Query query = left.back();
+            left.pop_back();
+            if (answer.length >= Answer::no_room) {
+                (answer.length == Answer::no_room ? again : failed).push_back(query);
                 continue;
             }
-            row_.clear();
-            for (uint64_t k = 0; k < given[i].length; ++k) {
-                const Stolen &part = counts[given[i].first + k];
-                row_.push_back({part.label, static_cast<double>(part.voxels)});
-            }
-            close(batch[i].row);
+            pile.place.push_back(query.row);
+            pile.begin.push_back(answer.first);
+            pile.end.push_back(answer.first + answer.length);
         }
+        left.insert(left.end(), again.rbegin(), again.rend());
     }
 
     Device &device_;
+    const Field<Word> &field_;
+    Memory<uint64_t> &kept_;
     const NaturalJob &job_;
     const Graph &graph_;
-    RuleTables<Word> tables_;
-    uint64_t labels_ = 1;
-    uint64_t all_windows_ = 0; // a margin that holds the whole grid
-    Memory<float> operands_;
-    Memory<Word> words_;
-    Memory<uint32_t> open_;
+    uint64_t whole_; // cells of a window that holds the whole grid
     uint64_t blocks_ = 0;
-    SibsonScratch<Word> scratch_{};
-    Memory<Word> reach_;
-    Memory<uint32_t> cells_, by_label_;
-    std::vector<RawShare> row_;
-    RowPile pile_;
+    Memory<uint64_t> scratch_;
+    std::vector<Answer> answers_;
+    std::vector<RowPile> piles_;
 };
+
+template <typename Word>
+std::vector<RowPile> import_and_run(Device &device, const NaturalJob &job, Progress &progress) {
+    Field<Word> field(device, job.field.graph());
+    field.take(job.field.words());
+    Memory<uint64_t> kept;
+    return sibson_rows(device, field, kept, job, progress);
+}
 
 } // namespace
 
+template <typename Word>
+std::vector<RowPile> sibson_rows(Device &device, const Field<Word> &field, Memory<uint64_t> &kept,
+                                 const NaturalJob &job, Progress &progress) {
+    return Batches<Word>(device, field, kept, job).run(progress);
+}
+template std::vector<RowPile> sibson_rows(Device &, const Field<uint32_t> &, Memory<uint64_t> &, const NaturalJob &,
+                                          Progress &);
+template std::vector<RowPile> sibson_rows(Device &, const Field<uint64_t> &, Memory<uint64_t> &, const NaturalJob &,
+                                          Progress &);
+
 std::vector<RowPile> sibson_rows(Device &device, const NaturalJob &job, Progress &progress) {
-    return job.field.graph().layout().bits == 32 ? Batches<uint32_t>(device, job).run(progress)
-                                                 : Batches<uint64_t>(device, job).run(progress);
+    return job.field.graph().layout().bits == 32 ? import_and_run<uint32_t>(device, job, progress)
+                                                 : import_and_run<uint64_t>(device, job, progress);
 }
 
 } // namespace locus::device

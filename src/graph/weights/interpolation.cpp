@@ -90,8 +90,8 @@ Rows Interpolation::natural(std::span<const uint64_t> rows, const Rows *base) co
     const Graph &graph = diagram_->graph();
     const Field field(graph, diagram_->words());
     const NaturalJob job{
-        field, options_.method,   options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(), voxels_,
-        rows,  diagram_->stream()};
+        field, options_.method,    options_.max_per_row, options_.batch_bytes, graph.threads(), graph.simd(), voxels_,
+        rows,  diagram_->stream(), &diagram_->engine()};
     return assemble(voxels_.size(), natural_rows_on_backend(job, progress), base);
 }
 

@@ -22,6 +22,7 @@ struct NaturalJob {
     std::span<const uint64_t> voxels; // one per row
     std::span<const uint64_t> rows;   // the rows to compute; all where empty
     void *stream = nullptr;           // the caller's, for the GPU
+    Engine *engine = nullptr;         // that solved the field, where it may be of use
 };
 
 // Piles that hold the rows. Throws LOCUS_E_MEMORY where `bytes` do not suffice for one query, LOCUS_E_STOPPED.

@@ -26,8 +26,10 @@ Rows assemble(uint64_t count, std::span<const RowPile> piles, const Rows *base) 
     uint64_t entries = 0;
     for (const RowPile &pile : piles) {
         uint64_t first = 0;
-        for (size_t i = 0; i < pile.place.size(); first = pile.end[i++])
+        for (size_t i = 0; i < pile.place.size(); first = pile.end[i++]) {
+            first = pile.begin.empty() ? first : pile.begin[i];
             found[pile.place[i]] = {pile.shares.data() + first, pile.shares.data() + pile.end[i]};
+        }
     }
     for (const auto &row : found)
         entries += row.size();

@@ -43,6 +43,7 @@ inline void add_row(Rows &rows, std::span<const Share> row) {
 // Some rows computed by one thread: where each belongs, and its end in `shares`.
 struct RowPile {
     std::vector<uint64_t> place;
+    std::vector<uint64_t> begin; // in `shares`, where rows do not lie one after the other; else empty
     std::vector<uint64_t> end;
     std::vector<Share> shares;
 

@@ -58,6 +58,49 @@ TEST(CudaSibson, WidensWindowsThatAreTooSmall) {
     expect_cpus_rows(solved, every(solved, 97), 0, 1 << 22);
 }
 
+// Windows in shared memory of several sizes, and in scratch memory; tables of labels that are too small.
+TEST(CudaSibson, HoldsWindowsWhereTheyFit) {
+    const emulated::KeepSettings keep;
+    for (const uint32_t word : {32u, 64u}) {
+        auto options = options_for(24, 17, 9);
+        options.word_bits = word;
+        options.max_seeds = 2000;
+        options.precision = 1.0 / 16;
+        const Solved few(options, noise(24 * 17 * 9, 3, 0.1), 3, 5), many(options, noise(24 * 17 * 9, 4), 1500, 6);
+        for (const uint64_t memory : {0u, 9000u, 12000u, 20000u, 40000u, 100000u}) {
+            emulated::settings().block_memory = memory;
+            expect_cpus_rows(few, every(few, 53));
+            expect_cpus_rows(many, every(many, 53), 3);
+        }
+    }
+}
+
+// Seeds all over the faces of a cube around the queries.
+TEST(CudaSibson, StealsFromMoreSeedsThanItsFirstTableHolds) {
+    auto options = options_for(25, 25, 25);
+    options.weight_rule = LOCUS_WEIGHT_UNIFORM;
+    options.precision = 1.0 / 64;
+    Solved solved(options, std::vector<float>(25 * 25 * 25, 1.0f), 1, 1);
+    solved.sources.clear();
+    for (uint64_t v = 0; v < solved.graph.grid().voxels(); ++v) {
+        const auto at = solved.graph.grid().place(v);
+        uint64_t far = 0;
+        for (const uint64_t each : at)
+            far = std::max(far, each > 12 ? each - 12 : 12 - each);
+        if (far == 12)
+            solved.sources.push_back({v, 0, static_cast<uint32_t>(solved.sources.size())});
+    }
+    solved.solve();
+    const uint64_t middle = solved.graph.grid().index(12, 12, 12);
+    Progress progress;
+    const Field field = solved.field();
+    const std::vector<uint64_t> voxels = {middle, middle + 1};
+    const NaturalJob job{field, LOCUS_METHOD_SIBSON, 0, 1 << 30, 1, Simd::scalar, voxels, {}};
+    EXPECT_GT(assemble(2, natural_rows(job, progress)).row(0).size(), 256u);
+    expect_cpus_rows(solved, voxels);
+    expect_cpus_rows(solved, voxels, 300);
+}
+
 TEST(CudaSibson, KeepsToCutEdgesAndToWhatWasReached) {
     Solved solved(options_for(14, 13, 12), noise(14 * 13 * 12, 8, 0.3), 5, 9);
     std::vector<uint64_t> voxels;
