@@ -29,7 +29,7 @@ namespace {
 
 using namespace locus;
 
-constexpr uint32_t h200_blocks = 132 * 6;       // visits at the same time: multiprocessors, blocks by their registers
+constexpr uint32_t h200_blocks = 132 * 10;      // visits at the same time: multiprocessors, blocks by their registers
 constexpr double floor_bytes = 12;              // a voxel's operand read, its word written and read once
 constexpr double slow = 3.35e12, fast = 4.8e12; // bytes a second of an H100's and an H200's memory, nominal
 
