@@ -9,6 +9,7 @@
 
 #ifndef __CUDA_ARCH__
 #include <atomic>
+#include <functional>
 #endif
 
 namespace locus::device {
@@ -22,6 +23,16 @@ template <typename T>
 __device__ inline Native<T> *native(T *at) {
     return reinterpret_cast<Native<T> *>(at);
 }
+#else
+// Put `value` there where it is better than what is; returns what was there.
+template <typename T, typename Better>
+T replace_where(T *at, T value, Better better) {
+    std::atomic_ref<T> there(*at);
+    T old = there.load(std::memory_order_relaxed);
+    while (better(value, old) && !there.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
+    }
+    return old;
+}
 #endif
 
 // Lower *at to `value`; returns what was there.
@@ -30,11 +41,7 @@ LOCUS_HD inline T atomic_min(T *at, T value) {
 #ifdef __CUDA_ARCH__
     return static_cast<T>(atomicMin(native(at), static_cast<Native<T>>(value)));
 #else
-    std::atomic_ref<T> there(*at);
-    T old = there.load(std::memory_order_relaxed);
-    while (value < old && !there.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
-    }
-    return old;
+    return replace_where(at, value, std::less<T>());
 #endif
 }
 
@@ -44,11 +51,7 @@ LOCUS_HD inline T atomic_max(T *at, T value) {
 #ifdef __CUDA_ARCH__
     return static_cast<T>(atomicMax(native(at), static_cast<Native<T>>(value)));
 #else
-    std::atomic_ref<T> there(*at);
-    T old = there.load(std::memory_order_relaxed);
-    while (value > old && !there.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
-    }
-    return old;
+    return replace_where(at, value, std::greater<T>());
 #endif
 }
 

@@ -12,11 +12,11 @@ namespace locus::device {
 template <typename Word>
 inline constexpr Word kNoOffer = std::numeric_limits<Word>::max() >> 1;
 
-// A GPU of compute capability 9.0 has one instruction for each of the last two (CUDA's DPX functions).
 template <typename Word>
 LOCUS_HD inline Word smaller(Word a, Word b) {
     return a < b ? a : b;
 }
+// A GPU of compute capability 9.0 has one instruction for each of these (CUDA's DPX functions).
 template <typename Word>
 LOCUS_HD inline Word smallest(Word a, Word b, Word c) {
 #ifdef __CUDA_ARCH__

@@ -40,10 +40,8 @@ public:
     }
 
 protected:
-    enum class Failure {
-        lets_go,
-        may_pass
-    }; // may_pass: what the field holds outlives failures that are not the device's
+    // may_pass: what the field holds outlives failures that are not the device's.
+    enum class Failure { lets_go, may_pass };
 
     template <typename Run>
     void on_device(Failure failure, Run &&run) {

@@ -13,10 +13,6 @@ using namespace locus::graph::test;
 namespace device = locus::device;
 namespace emulated = locus::device::emulated;
 
-std::vector<uint64_t> wide(const Words &words) {
-    return std::visit([](const auto &each) { return std::vector<uint64_t>(each.begin(), each.end()); }, words);
-}
-
 class Kept {
 public:
     Kept(uint32_t word, uint32_t seed) : random_(seed), graph_(options(word, seed), materials(seed).data()) {
@@ -105,27 +101,6 @@ private:
     bool anew_ = true;
     locus::Progress progress_;
 };
-
-void expect_change(const Graph &graph, const Change &change, const std::vector<uint64_t> &before,
-                   const std::vector<uint64_t> &after, const std::string &what) {
-    uint64_t changed = 0;
-    std::array<uint64_t, 3> first{UINT64_MAX, UINT64_MAX, UINT64_MAX}, last{};
-    for (uint64_t v = 0; v < after.size(); ++v) {
-        if (before[v] == after[v])
-            continue;
-        ++changed;
-        const auto place = graph.grid().place(v);
-        for (size_t a = 0; a < 3; ++a) {
-            first[a] = std::min(first[a], place[a]);
-            last[a] = std::max(last[a], place[a]);
-        }
-    }
-    EXPECT_EQ(change.voxels, changed) << what;
-    for (size_t a = 0; a < 3; ++a) {
-        EXPECT_EQ(change.box.origin[a], changed > 0 ? first[a] : 0) << what;
-        EXPECT_EQ(change.box.extent[a], changed > 0 ? last[a] - first[a] + 1 : 0) << what;
-    }
-}
 
 void expect_kept(const Kept &kept, const Report &report, const std::vector<uint64_t> &words, const std::string &what) {
     const auto &layout = kept.graph().layout();

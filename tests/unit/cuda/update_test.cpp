@@ -13,10 +13,6 @@ using namespace locus::graph::test;
 namespace device = locus::device;
 namespace emulated = locus::device::emulated;
 
-std::vector<uint64_t> wide(const Words &words) {
-    return std::visit([](const auto &each) { return std::vector<uint64_t>(each.begin(), each.end()); }, words);
-}
-
 // A graph, its sources and an engine on the device that follows them.
 class Edited {
 public:
@@ -48,23 +44,7 @@ public:
         downloaded_ = emulated::counters().downloaded - moved;
         const std::vector<uint64_t> expected = solve(LOCUS_ENGINE_HEAP, problem());
         ASSERT_EQ(wide(words_), expected) << what;
-        uint64_t changed = 0;
-        std::array<uint64_t, 3> first{UINT64_MAX, UINT64_MAX, UINT64_MAX}, last{};
-        for (uint64_t v = 0; v < expected.size(); ++v) {
-            if (before[v] == expected[v])
-                continue;
-            ++changed;
-            const auto place = graph_.grid().place(v);
-            for (size_t a = 0; a < 3; ++a) {
-                first[a] = std::min(first[a], place[a]);
-                last[a] = std::max(last[a], place[a]);
-            }
-        }
-        EXPECT_EQ(change.voxels, changed) << what;
-        for (size_t a = 0; a < 3; ++a) {
-            EXPECT_EQ(change.box.origin[a], changed > 0 ? first[a] : 0) << what;
-            EXPECT_EQ(change.box.extent[a], changed > 0 ? last[a] - first[a] + 1 : 0) << what;
-        }
+        expect_change(graph_, change, before, expected, what);
     }
     uint64_t downloaded() const { return downloaded_; }
 

@@ -9,10 +9,6 @@ namespace {
 using namespace locus::graph;
 using namespace locus::graph::test;
 
-std::vector<uint64_t> wide(const Words &words) {
-    return std::visit([](const auto &each) { return std::vector<uint64_t>(each.begin(), each.end()); }, words);
-}
-
 // A graph, its sources and an engine that follows them.
 class Edited {
 public:
@@ -35,7 +31,7 @@ public:
         engine_->update(problem(), words_, progress_, change);
         const std::vector<uint64_t> expected = solve(LOCUS_ENGINE_HEAP, problem());
         ASSERT_EQ(wide(words_), expected) << what;
-        expect_change(before, expected, change, what);
+        expect_change(graph_, change, before, expected, what);
     }
 
 private:
@@ -102,27 +98,6 @@ private:
         std::erase_if(sources_, [&](const Source &source) { return !graph_.passable(source.voxel); });
         if (sources_.empty())
             add_source(1);
-    }
-
-    void expect_change(const std::vector<uint64_t> &before, const std::vector<uint64_t> &after, const Change &change,
-                       const std::string &what) {
-        uint64_t voxels = 0;
-        std::array<uint64_t, 3> first{UINT64_MAX, UINT64_MAX, UINT64_MAX}, last{};
-        for (uint64_t v = 0; v < after.size(); ++v) {
-            if (before[v] == after[v])
-                continue;
-            ++voxels;
-            const auto place = graph_.grid().place(v);
-            for (size_t axis = 0; axis < 3; ++axis) {
-                first[axis] = std::min(first[axis], place[axis]);
-                last[axis] = std::max(last[axis], place[axis]);
-            }
-        }
-        EXPECT_EQ(change.voxels, voxels) << what;
-        for (size_t axis = 0; axis < 3; ++axis) {
-            EXPECT_EQ(change.box.origin[axis], voxels > 0 ? first[axis] : 0) << what;
-            EXPECT_EQ(change.box.extent[axis], voxels > 0 ? last[axis] - first[axis] + 1 : 0) << what;
-        }
     }
 
     std::mt19937_64 random_;

@@ -4,6 +4,10 @@
 
 #include "graph/engine.hpp"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -76,13 +80,39 @@ inline std::vector<uint64_t> brute_force(const Problem &problem) {
     return words;
 }
 
+inline std::vector<uint64_t> wide(const Words &words) {
+    return std::visit([](const auto &each) { return std::vector<uint64_t>(each.begin(), each.end()); }, words);
+}
+
+// What an update says it changed, against the words before and after it.
+inline void expect_change(const Graph &graph, const Change &change, const std::vector<uint64_t> &before,
+                          const std::vector<uint64_t> &after, const std::string &what) {
+    uint64_t changed = 0;
+    std::array<uint64_t, 3> first{UINT64_MAX, UINT64_MAX, UINT64_MAX}, last{};
+    for (uint64_t v = 0; v < after.size(); ++v) {
+        if (before[v] == after[v])
+            continue;
+        ++changed;
+        const auto place = graph.grid().place(v);
+        for (size_t a = 0; a < 3; ++a) {
+            first[a] = std::min(first[a], place[a]);
+            last[a] = std::max(last[a], place[a]);
+        }
+    }
+    EXPECT_EQ(change.voxels, changed) << what;
+    for (size_t a = 0; a < 3; ++a) {
+        EXPECT_EQ(change.box.origin[a], changed > 0 ? first[a] : 0) << what;
+        EXPECT_EQ(change.box.extent[a], changed > 0 ? last[a] - first[a] + 1 : 0) << what;
+    }
+}
+
 inline std::vector<uint64_t> solve(uint32_t engine, const Problem &problem, Report *report = nullptr) {
     Words words;
     Progress progress;
     const Report done = make_engine(engine)->solve(problem, words, progress);
     if (report != nullptr)
         *report = done;
-    return std::visit([](const auto &each) { return std::vector<uint64_t>(each.begin(), each.end()); }, words);
+    return wide(words);
 }
 
 } // namespace locus::graph::test
